@@ -1,0 +1,73 @@
+// The map that is kept and saved: an octree of occupancy, colour and uncertainty.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "nbvopt/map/voxel.hpp"
+
+namespace nbvopt {
+
+class UncertaintyOcTree;  // src/map/uncertainty_octree.hpp: OctoMap stays out of public headers
+
+/// What is known of one voxel.
+struct VoxelRecord {
+  VoxelState state = VoxelState::unknown;
+  float log_odds = 0.0F;                          ///< of being occupied; 0 when unknown
+  float uncertainty = kUnknownUncertainty;        ///< Eq. 9, in [0, 1]; 1 unless occupied
+  std::array<std::uint8_t, 3> colour{255, 255, 255};
+};
+
+/// Counts over leaves at the finest resolution: a pruned leaf counts as the voxels it covers.
+struct MapCounts {
+  std::uint64_t occupied_voxels = 0;
+  std::uint64_t free_voxels = 0;
+  std::uint64_t certain_voxels = 0;  ///< occupied with u < 1: the "voxels" of the paper's Table 1
+  double information = 0.0;          ///< Eq. 11, sum of 1 - u over occupied voxels
+  std::uint64_t leaves = 0;
+  std::uint64_t nodes = 0;           ///< leaves and inner nodes
+};
+
+/// An octree over OctoMap's lattice. Its invariants: a leaf is pruned only where occupancy, colour
+/// and uncertainty of all that it covers are equal; an inner node holds its children's maximum
+/// occupancy and maximum u. One thread writes at a time; reading is safe while nobody writes.
+class UncertaintyMap {
+ public:
+  /// An empty map. Throws InputError unless the resolution is positive and finite.
+  explicit UncertaintyMap(double resolution_m);
+  explicit UncertaintyMap(std::unique_ptr<UncertaintyOcTree> tree);
+  UncertaintyMap(UncertaintyMap&&) noexcept;
+  UncertaintyMap& operator=(UncertaintyMap&&) noexcept;
+  ~UncertaintyMap();
+
+  const Lattice& lattice() const { return lattice_; }
+  double resolution_m() const { return lattice_.resolution_m(); }
+
+  VoxelRecord at(VoxelKey key) const;
+
+  /// Writes one voxel, whatever it was. `log_odds` decides the state: >= 0 is occupied, as in
+  /// OctoMap. u is kept for occupied voxels only. Call finish_writing() after the last one.
+  void set(VoxelKey key, const VoxelRecord& record);
+
+  /// Restores the invariants of inner nodes and prunes, after writes by set().
+  void finish_writing();
+
+  MapCounts counts() const;
+
+  /// The smallest box that holds every known voxel; none when the map is empty.
+  std::optional<KeyBox> known_box() const;
+
+  /// Whether any occupied voxel carries u < 1. Plain OctoMaps carry none.
+  bool carries_uncertainty() const;
+
+  const UncertaintyOcTree& tree() const { return *tree_; }
+  UncertaintyOcTree& tree() { return *tree_; }
+
+ private:
+  std::unique_ptr<UncertaintyOcTree> tree_;
+  Lattice lattice_;
+};
+
+}  // namespace nbvopt

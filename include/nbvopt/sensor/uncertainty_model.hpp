@@ -1,0 +1,37 @@
+// How uncertain a point is that the camera sees: Eq. 1 to 8.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "nbvopt/sensor/sensor_options.hpp"
+
+namespace nbvopt {
+
+/// u of a point in the sensor frame, in [0, 1).
+class UncertaintyModel {
+ public:
+  explicit UncertaintyModel(const SensorOptions& options);
+
+  /// Eq. 2 of a point at this Euclidean distance; in [0, 1).
+  double distance_uncertainty(double distance_m) const;
+
+  /// Eq. 7 of a point in this direction, which need not have unit length; in [0, 1].
+  double angle_uncertainty(const Eigen::Vector3d& direction_sensor) const;
+
+  /// Eq. 8, or Eq. 2 or 7 alone, as the mode says. It is linear in both:
+  /// u = distance_weight() * u_d + angle_weight() * u_alpha.
+  double uncertainty(const Eigen::Vector3d& p_sensor_m) const;
+
+  double distance_weight() const { return distance_weight_; }
+  double angle_weight() const { return angle_weight_; }
+  double focal_distance_m() const { return focal_distance_m_; }
+
+ private:
+  double focal_distance_m_;
+  double half_fov_horizontal_rad_;
+  double half_fov_vertical_rad_;
+  double distance_weight_;
+  double angle_weight_;
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,52 @@
+// What a solver sees of a problem: nothing of maps, so that every solver runs on textbook
+// functions.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace nbvopt {
+
+/// Points of the search space; one column vector each.
+using Point = Eigen::VectorXd;
+
+/// A closed box, lower <= upper in each coordinate. Equal bounds freeze a coordinate.
+struct Box {
+  Point lower;
+  Point upper;
+
+  Eigen::Index dimension() const { return lower.size(); }
+  bool contains(const Point& x) const {
+    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
+  }
+  Point clamp(const Point& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
+};
+
+/// A function to be maximised over a box. Thread-safe where batch solvers are used.
+class Objective {
+ public:
+  virtual ~Objective() = default;
+
+  virtual const Box& box() const = 0;
+
+  virtual double value(const Point& x) const = 0;
+
+  /// The values of many points; values.size() == points.size(). May use all cores.
+  virtual void values(std::span<const Point> points, std::span<double> values) const {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = value(points[i]);
+  }
+
+  /// Decides between points of equal value: the lower cost wins. For a mast, the motion.
+  virtual double tie_cost(const Point& /*x*/) const { return 0.0; }
+
+  virtual bool has_gradient() const { return false; }
+
+  /// The value, and its gradient in `gradient`. Only where has_gradient().
+  virtual double value_and_gradient(const Point& x, Point& gradient) const {
+    gradient.setZero(x.size());
+    return value(x);
+  }
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,62 @@
+// The interface of all solvers.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nbvopt/core/stop.hpp"
+#include "nbvopt/solver/objective.hpp"
+
+namespace nbvopt {
+
+enum class SolveStatus {
+  not_run,
+  converged,          ///< the solver's own tolerances were met
+  grid_complete,      ///< every candidate was evaluated
+  evaluation_limit,
+  time_limit,
+  cancelled,
+};
+std::string to_string(SolveStatus status);
+
+/// What a solver needs of an objective.
+struct SolverNeeds {
+  bool gradient = false;
+};
+
+/// One search: where it starts, when it stops, its seed.
+struct SolveRequest {
+  Point start;  ///< inside the box; always evaluated
+  StopRule stop;
+  std::uint64_t seed = 1;
+};
+
+/// The best point that was evaluated; born as "not run".
+struct SolveResult {
+  SolveStatus status = SolveStatus::not_run;
+  std::string message = "the solver was not called";
+  Point best;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t evaluations = 0;
+};
+
+/// A maximiser over a box. The answer lies in the box, is never worse than the start nor than any
+/// point evaluated, and is the same for the same request, whatever the number of threads.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  virtual std::string name() const = 0;
+  virtual SolverNeeds needs() const { return {}; }
+
+  /// Checks, then solves. Throws UsageError when the start is not in the box, bounds are crossed
+  /// or not finite, or the objective lacks what the solver needs.
+  SolveResult solve(const Objective& objective, const SolveRequest& request) const;
+
+ private:
+  virtual SolveResult do_solve(const Objective& objective, const SolveRequest& request) const = 0;
+};
+
+}  // namespace nbvopt
