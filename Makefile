@@ -1,0 +1,54 @@
+# The commands that people and CI share: a thin layer over the CMake presets.
+# PRESET chooses another build, as in `make test PRESET=dev`.
+PRESET ?= release
+BUILD := build/$(PRESET)
+NBVOPT := $(BUILD)/cli/nbvopt
+SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
+
+.PHONY: help packages packages-ci build demo test bench sanitize fuzz format check-format tidy clean
+
+help:  ## list the commands
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
+
+packages:
+	@cmake/install_packages.sh packages.txt
+
+packages-ci:
+	@cmake/install_packages.sh packages.txt packages-ci.txt
+
+build: packages  ## configure and build everything
+	@cmake --preset $(PRESET) --log-level=WARNING
+	@cmake --build --preset $(PRESET)
+
+demo: packages  ## find the next best view on a map that ships; its answer and picture land in out/
+	@cmake --preset $(PRESET) --log-level=WARNING
+	@cmake --build --preset $(PRESET) --target nbvopt_cli
+	@mkdir -p out
+	@echo
+
+test: build  ## run all tests
+	@ctest --preset $(PRESET) --output-junit junit.xml
+
+bench: build  ## measure; compare two runs with Google Benchmark's tools/compare.py
+	@$(BUILD)/tests/bench/nbvopt_bench
+
+sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
+	@$(MAKE) --no-print-directory test PRESET=sanitize
+
+fuzz: packages-ci  ## fuzz the readers, 20 seconds each
+	@cmake --preset fuzz --log-level=WARNING
+	@cmake --build --preset fuzz
+	@ctest --preset fuzz --output-junit junit.xml
+
+format: packages-ci  ## format all sources
+	@clang-format -i $(SOURCES)
+
+check-format: packages-ci
+	@clang-format --dry-run -Werror $(SOURCES)
+
+tidy: packages-ci  ## lint all sources
+	@cmake --preset tidy --log-level=WARNING
+	@run-clang-tidy -quiet -j 2 -p build/tidy '^$(CURDIR)/(src|solvers|cli|datasets)/'
+
+clean:  ## remove all builds and what the demo wrote
+	@rm -rf build out

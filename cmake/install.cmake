@@ -1,0 +1,20 @@
+# What `cmake --install` puts in place: the library, its headers, its package config, the tool.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nbvopt)
+
+install(TARGETS nbvopt EXPORT nbvoptTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT nbvoptTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
+install(DIRECTORY include/nbvopt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+configure_package_config_file(cmake/nbvoptConfig.cmake.in nbvoptConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(nbvoptConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/nbvoptConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/nbvoptConfigVersion.cmake
+  DESTINATION ${package_dir})
+
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET nbvopt_cli)
+  install(TARGETS nbvopt_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

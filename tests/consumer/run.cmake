@@ -1,0 +1,10 @@
+# Installs the build in BUILD_DIR into a prefix of its own, then configures, builds and runs the
+# consumer against that prefix. Run as `cmake -DBUILD_DIR=... -DWORK_DIR=... -DCXX=... -P run.cmake`.
+file(REMOVE_RECURSE ${WORK_DIR})
+foreach(command
+    "--install;${BUILD_DIR};--prefix;${WORK_DIR}/prefix"
+    "-S;${CMAKE_CURRENT_LIST_DIR};-B;${WORK_DIR}/build;-G;Ninja;-DCMAKE_CXX_COMPILER=${CXX};-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
+    "--build;${WORK_DIR}/build")
+  execute_process(COMMAND ${CMAKE_COMMAND} ${command} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+execute_process(COMMAND ${WORK_DIR}/build/consumer COMMAND_ERROR_IS_FATAL ANY)
