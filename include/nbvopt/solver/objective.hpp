@@ -47,6 +47,22 @@ class Objective {
     gradient.setZero(x.size());
     return value(x);
   }
+
+  /// True when the objective is also a least-squares problem: value(x) = constant - |r(x)|^2, so
+  /// that it is largest where the sum of squared residuals is smallest.
+  virtual bool has_residuals() const { return false; }
+
+  /// The length of r. Only where has_residuals(); the same for every point.
+  virtual Eigen::Index residual_count() const { return 0; }
+
+  /// The value, r(x) in `residuals` and, unless null, dr/dx in `jacobian` (a row a residual, a
+  /// column a coordinate). Only where has_residuals().
+  virtual double value_and_residuals(const Point& x, Eigen::VectorXd& residuals,
+                                     Eigen::MatrixXd* jacobian) const {
+    residuals.resize(0);
+    if (jacobian) jacobian->resize(0, x.size());
+    return value(x);
+  }
 };
 
 }  // namespace nbvopt

@@ -14,8 +14,8 @@ namespace nbvopt {
 
 enum class SolveStatus {
   not_run,
-  converged,          ///< the solver's own tolerances were met
-  grid_complete,      ///< every candidate was evaluated
+  converged,      ///< the solver's own tolerances were met
+  grid_complete,  ///< every candidate was evaluated
   evaluation_limit,
   time_limit,
   cancelled,
@@ -25,6 +25,7 @@ std::string to_string(SolveStatus status);
 /// What a solver needs of an objective.
 struct SolverNeeds {
   bool gradient = false;
+  bool residuals = false;
 };
 
 /// One search: where it starts, when it stops, its seed.
@@ -44,7 +45,8 @@ struct SolveResult {
 };
 
 /// A maximiser over a box. The answer lies in the box, is never worse than the start nor than any
-/// point evaluated, and is the same for the same request, whatever the number of threads.
+/// point evaluated (NaN is worse than any value), and is the same for the same request, whatever
+/// the number of threads. An exception of the objective comes through as it is.
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -52,7 +54,8 @@ class Solver {
   virtual SolverNeeds needs() const { return {}; }
 
   /// Checks, then solves. Throws UsageError when the start is not in the box, bounds are crossed
-  /// or not finite, or the objective lacks what the solver needs.
+  /// or not finite, the evaluation limit leaves none for the start, or the objective lacks what
+  /// the solver needs. A deadline in the past or a raised cancel flag returns the start, evaluated.
   SolveResult solve(const Objective& objective, const SolveRequest& request) const;
 
  private:

@@ -1,0 +1,32 @@
+#include "stop_status.hpp"
+
+namespace nbvopt {
+
+std::optional<SolveStatus> stop_status(const StopRule& stop, std::int64_t evaluations) {
+  if (stop.cancel.is_cancelled()) return SolveStatus::cancelled;
+  if (evaluations >= stop.max_evaluations) return SolveStatus::evaluation_limit;
+  if (stop.is_expired()) return SolveStatus::time_limit;
+  return std::nullopt;
+}
+
+std::string solve_message(SolveStatus status, std::int64_t evaluations) {
+  const std::string count =
+      std::to_string(evaluations) + (evaluations == 1 ? " evaluation" : " evaluations");
+  switch (status) {
+    case SolveStatus::not_run:
+      return "the solver was not called";
+    case SolveStatus::converged:
+      return "tolerances met after " + count;
+    case SolveStatus::grid_complete:
+      return "every candidate evaluated, " + count;
+    case SolveStatus::evaluation_limit:
+      return "evaluation limit reached after " + count;
+    case SolveStatus::time_limit:
+      return "time limit reached after " + count;
+    case SolveStatus::cancelled:
+      return "cancelled after " + count;
+  }
+  return to_string(status);
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,89 @@
+#include "nbvopt/solver/solver.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+std::string coordinate_text(const char* name, Eigen::Index i, double value) {
+  std::ostringstream text;
+  text.precision(17);
+  text << name << "[" << i << "] = " << value;
+  return text.str();
+}
+
+void check_box(const Box& box) {
+  if (box.lower.size() == 0 || box.lower.size() != box.upper.size()) {
+    throw UsageError("box: give a lower and an upper bound for at least one coordinate");
+  }
+  for (Eigen::Index i = 0; i < box.dimension(); ++i) {
+    if (!std::isfinite(box.lower[i])) {
+      throw UsageError(coordinate_text("box: lower", i, box.lower[i]) + " must be finite");
+    }
+    if (!std::isfinite(box.upper[i])) {
+      throw UsageError(coordinate_text("box: upper", i, box.upper[i]) + " must be finite");
+    }
+    if (box.lower[i] > box.upper[i]) {
+      throw UsageError(coordinate_text("box: lower", i, box.lower[i]) + " must not exceed " +
+                       coordinate_text("upper", i, box.upper[i]));
+    }
+  }
+}
+
+void check_start(const Point& start, const Box& box) {
+  if (start.size() != box.dimension()) {
+    throw UsageError("start: has " + std::to_string(start.size()) + " coordinates, the box has " +
+                     std::to_string(box.dimension()));
+  }
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    // Written so that NaN fails.
+    if (!(start[i] >= box.lower[i] && start[i] <= box.upper[i])) {
+      throw UsageError(coordinate_text("start", i, start[i]) + " must lie in the box, between " +
+                       coordinate_text("lower", i, box.lower[i]) + " and " +
+                       coordinate_text("upper", i, box.upper[i]));
+    }
+  }
+}
+
+}  // namespace
+
+std::string to_string(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::not_run:
+      return "not_run";
+    case SolveStatus::converged:
+      return "converged";
+    case SolveStatus::grid_complete:
+      return "grid_complete";
+    case SolveStatus::evaluation_limit:
+      return "evaluation_limit";
+    case SolveStatus::time_limit:
+      return "time_limit";
+    case SolveStatus::cancelled:
+      return "cancelled";
+  }
+  throw UsageError("SolveStatus: unknown value " + std::to_string(static_cast<int>(status)));
+}
+
+SolveResult Solver::solve(const Objective& objective, const SolveRequest& request) const {
+  check_box(objective.box());
+  check_start(request.start, objective.box());
+  if (request.stop.max_evaluations < 1) {
+    throw UsageError("max_evaluations = " + std::to_string(request.stop.max_evaluations) +
+                     ": at least 1 is needed, for the start");
+  }
+  if (needs().gradient && !objective.has_gradient()) {
+    throw UsageError("solver " + name() +
+                     " needs a gradient, which this objective has not: use a solver without one");
+  }
+  if (needs().residuals && !objective.has_residuals()) {
+    throw UsageError("solver " + name() +
+                     " needs residuals, which this objective has not: use a solver without them");
+  }
+  return do_solve(objective, request);
+}
+
+}  // namespace nbvopt
