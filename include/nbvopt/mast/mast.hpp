@@ -74,7 +74,8 @@ class Mast {
 
   /// Algorithm 2's ranges: per joint [max(min, q - v t), min(max, q + v t)]; t = 0 means no
   /// limit. A continuous pan's box is at most one turn, centred on the current pan, unwrapped.
-  /// Requires q within limits; throws UsageError when t is negative or not finite.
+  /// q lies in it to the last bit. Throws UsageError when q is not within limits, or when t is
+  /// negative or not finite.
   JointBox reachable_box(const JointPosition& q, double motion_time_s) const;
 
   /// The time that the slowest joint needs from one position to another, seconds.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "nbvopt/mast/mast.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
@@ -21,6 +22,9 @@ struct Robot {
 /// key and value: an unknown key (with the nearest right one), a wrong type, a value that fails
 /// its check.
 Robot read_robot(const std::filesystem::path& path);
+
+/// The same from text; `name` stands for the file in messages.
+Robot parse_robot(const std::string& yaml, const std::string& name);
 
 /// The whole robot as such a file.
 std::string to_yaml(const Robot& robot);

@@ -1,0 +1,32 @@
+// The fields of the robot by name, as files and messages give them: one table for the robot's YAML
+// and for the `sensor` block of pose files.
+#pragma once
+
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "nbvopt/mast/mast.hpp"
+#include "nbvopt/sensor/sensor_options.hpp"
+
+namespace nbvopt {
+
+/// A value whose type has not been checked yet. Enumerators are strings; vectors lists of numbers.
+using FieldValue = std::variant<bool, double, std::string, std::vector<double>>;
+
+/// One "key: value" of a file.
+struct FieldSetting {
+  std::string key;
+  FieldValue value;
+};
+
+/// Writes the settings into the options and validates the whole. Throws InputError that names
+/// `file`, key and value: an unknown key (with the nearest right one), a key given twice, a wrong
+/// type, a value that fails its check. With `range_axis: z_depth` and no `ray_pattern` the rays
+/// are equal_angles, since the released code has both.
+void set_fields(SensorOptions& sensor, std::span<const FieldSetting> settings,
+                const std::string& file);
+void set_fields(MastOptions& mast, std::span<const FieldSetting> settings, const std::string& file);
+
+}  // namespace nbvopt

@@ -1,0 +1,16 @@
+// Numbers as text: read strictly, written so that reading them back gives the same bits.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nbvopt {
+
+/// The decimal number that the whole text is, "inf" and "nan" included; none for anything else.
+std::optional<double> parse_number(std::string_view text);
+
+/// The shortest decimal that reads back as the same number.
+std::string format_number(double value);
+
+}  // namespace nbvopt
