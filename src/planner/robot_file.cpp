@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iomanip>
 #include <sstream>
 
 #include "core/number.hpp"
@@ -74,11 +75,15 @@ std::string to_yaml_value(const Eigen::Vector3d& v) {
 template <class Enum>
 requires std::is_enum_v<Enum> std::string to_yaml_value(Enum value) { return to_string(value); }
 
+/// Where the comments start, so that they stand in one column.
+constexpr int kCommentColumn = 44;
+
 template <class Options>
 void write_block(std::ostream& out, const Options& options) {
   out << block_name(options) << ":\n";
   for_each_field(options, [&](const char* key, const auto& field, const char* comment) {
-    out << "  " << key << ": " << to_yaml_value(field) << "  # " << comment << '\n';
+    const std::string setting = std::string(key) + ": " + to_yaml_value(field);
+    out << "  " << std::left << std::setw(kCommentColumn) << setting << "  # " << comment << '\n';
   });
 }
 
