@@ -1,6 +1,7 @@
 // What a view is worth: Eq. 12 a ray, Eq. 13 a view.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,9 +26,8 @@ struct ViewGain {
 
 /// Storage that a gain model reuses from view to view; keep one a thread.
 struct GainScratch {
-  std::vector<double> ray_gain;
-  std::vector<std::uint64_t> table_key;
-  std::vector<std::uint32_t> table_ray;
+  std::vector<double> ray_gain;         ///< of each ray, counted on its own
+  std::vector<std::uint32_t> best_ray;  ///< a hash table of voxels
 };
 
 /// Turns the hits of the camera's rays into the gain of the view. Implementations are const and

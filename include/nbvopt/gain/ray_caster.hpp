@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "nbvopt/core/transform.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 
 namespace nbvopt {
@@ -20,10 +21,11 @@ enum class HitKind : std::uint8_t {
 /// The face by which a ray enters a voxel, named by the direction of travel.
 enum class Face : std::uint8_t { inside, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
-/// Rays from one origin, structure of arrays: unit directions in the map frame, and the distances
-/// between which the first non-free voxel decides. All spans have one size.
+/// Rays from one origin, structure of arrays: unit directions in a frame of the caller's (the
+/// sensor's, say), and the distances between which the first non-free voxel decides. All spans
+/// have one size.
 struct RayBundle {
-  Eigen::Vector3d origin_map_m = Eigen::Vector3d::Zero();
+  Transform T_map_rays = Transform::Identity();  ///< the rays' frame; its origin is theirs
   std::span<const double> x, y, z;
   std::span<const double> range_min_m, range_max_m;
   bool near_blocking = true;
@@ -34,10 +36,12 @@ struct RayBundle {
 /// What the rays met, structure of arrays. The storage is reused: keep one a thread.
 struct RayHits {
   std::vector<HitKind> kind;
-  std::vector<Face> face;           ///< inside when the ray starts in the voxel, at range_min
-  std::vector<VoxelKey> voxel;      ///< of an unknown or occupied hit
-  std::vector<double> distance_m;   ///< where the ray enters the voxel, at least range_min
-  std::vector<float> uncertainty;   ///< u_old of the voxel; 1 when unknown
+  std::vector<Face> face;          ///< inside when the ray starts in the voxel, at range_min
+  std::vector<VoxelKey> voxel;     ///< of an unknown or occupied hit
+  std::vector<double> distance_m;  ///< where the ray enters the voxel, at least range_min
+  std::vector<float> uncertainty;  ///< u_old of the voxel; 1 when unknown
+  /// Every ray's unit direction in the map frame, met something or not.
+  std::vector<double> direction_x, direction_y, direction_z;
 
   std::size_t size() const { return kind.size(); }
   void resize(std::size_t n);

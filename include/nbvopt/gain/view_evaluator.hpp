@@ -46,7 +46,7 @@ SensorOptions paper_code_sensor(SensorOptions sensor);
 /// that of poses[i]. Stops early, leaving the rest "not evaluated", when `stop` says so.
 /// The answer does not depend on the number of threads.
 std::vector<ViewGain> evaluate_views(const ViewEvaluator& evaluator,
-                                     std::span<const Transform> poses_T_map_sensor,
-                                     int threads = 0, const StopRule& stop = {});
+                                     std::span<const Transform> poses_T_map_sensor, int threads = 0,
+                                     const StopRule& stop = {});
 
 }  // namespace nbvopt

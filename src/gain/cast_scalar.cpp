@@ -1,0 +1,165 @@
+// The caster one ray at a time, in double precision: the plain statement of what the vectorised
+// one does, and its fallback.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gain/ray_walk.hpp"
+
+namespace nbvopt::detail {
+namespace {
+
+/// One ray in mirrored lattice coordinates around the origin's voxel.
+class ScalarRay {
+ public:
+  ScalarRay(const RayWalk& walk, const Eigen::Vector3d& direction_map) : walk_(walk) {
+    for (int a = 0; a < 3; ++a) {
+      const bool down = direction_map[a] < 0.0;
+      mirror_[a] = down ? -1 : 0;
+      origin_[a] = down ? -walk.origin_in_voxel[a] : walk.origin_in_voxel[a];
+      direction_[a] = std::max(std::abs(direction_map[a]), kSmallestDirection);
+    }
+  }
+
+  void start_at(double distance) {
+    for (int a = 0; a < 3; ++a) {
+      voxel_[a] = static_cast<int>(std::floor(origin_[a] + distance * direction_[a]));
+    }
+    entered_axis_ = -1;
+  }
+
+  std::uint8_t code() const {
+    const VoxelKey k = key();
+    const BrickKey brick = brick_of(k);
+    return walk_.bricks.code[walk_.bricks.place_of(brick)][index_of(k)];
+  }
+
+  /// Where the ray leaves the cube of this radius around its voxel; remembers the axis.
+  double exit_of_cube(int radius) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < 3; ++a) {
+      const double t = (voxel_[a] + radius + 1 - origin_[a]) / direction_[a];
+      if (t < nearest) {
+        nearest = t;
+        exit_axis_ = a;
+      }
+    }
+    return nearest;
+  }
+
+  /// Enters the voxel behind the cube's face that exit_of_cube() found.
+  void leap(int radius, double distance) {
+    for (int a = 0; a < 3; ++a) {
+      const int last = voxel_[a] + radius;
+      // Rounding must not take the ray out of the cube by any other face.
+      voxel_[a] =
+          a == exit_axis_
+              ? last + 1
+              : std::clamp(static_cast<int>(std::floor(origin_[a] + distance * direction_[a])),
+                           voxel_[a], last);
+    }
+    entered_axis_ = exit_axis_;
+  }
+
+  VoxelKey key() const {
+    std::array<std::uint16_t, 3> k{};
+    for (int a = 0; a < 3; ++a) {
+      k[a] = static_cast<std::uint16_t>((voxel_[a] ^ mirror_[a]) + walk_.origin_key[a]);
+    }
+    return {k[0], k[1], k[2]};
+  }
+
+  Face face() const {
+    if (entered_axis_ < 0) return Face::inside;
+    return static_cast<Face>(1 + 2 * entered_axis_ - mirror_[entered_axis_]);
+  }
+
+  double entry_distance_m(double range_min_m) const {
+    if (entered_axis_ < 0) return range_min_m;
+    const int a = entered_axis_;
+    return std::max(range_min_m, (voxel_[a] - origin_[a]) * walk_.resolution_m / direction_[a]);
+  }
+
+  /// Whether an occupied voxel, left before `end`, stands between the origin and there.
+  bool is_blocked_before(double end) {
+    start_at(0.0);
+    for (;;) {
+      const std::uint8_t c = code();
+      const int radius = is_free_code(c) ? c - 1 : 0;
+      const double t = exit_of_cube(radius);
+      if (t >= end) return false;
+      if (c == kOccupiedCode) return true;
+      leap(radius, t);
+    }
+  }
+
+ private:
+  const RayWalk& walk_;
+  std::array<double, 3> origin_{};
+  std::array<double, 3> direction_{};
+  std::array<int, 3> mirror_{};
+  std::array<int, 3> voxel_{};
+  int entered_axis_ = -1;
+  int exit_axis_ = 0;
+};
+
+void walk_ray(const RayWalk& walk, std::size_t i, RayHits& hits) {
+  const double near = walk.rays->range_min_m[i] / walk.resolution_m;
+  const double far = walk.rays->range_max_m[i] / walk.resolution_m;
+  ScalarRay ray(walk, {hits.direction_x[i], hits.direction_y[i], hits.direction_z[i]});
+  hits.kind[i] = HitKind::none;
+  hits.face[i] = Face::inside;
+  hits.voxel[i] = {};
+  hits.distance_m[i] = walk.rays->range_max_m[i];
+  hits.uncertainty[i] = kUnknownUncertainty;
+  if (walk.walk_near && ray.is_blocked_before(near)) {
+    hits.kind[i] = HitKind::blocked;
+    return;
+  }
+  ray.start_at(near);
+  std::uint8_t code = ray.code();
+  while (is_free_code(code)) {
+    const int radius = code - 1;
+    const double t = ray.exit_of_cube(radius);
+    if (t >= far) return;
+    ray.leap(radius, t);
+    code = ray.code();
+  }
+  hits.face[i] = ray.face();
+  hits.voxel[i] = ray.key();
+  hits.distance_m[i] = ray.entry_distance_m(walk.rays->range_min_m[i]);
+  if (code == kUnknownCode) {
+    hits.kind[i] = HitKind::unknown;
+    return;
+  }
+  hits.kind[i] = HitKind::occupied;
+  const Brick* brick = walk.bricks.brick[walk.bricks.place_of(brick_of(hits.voxel[i]))];
+  hits.uncertainty[i] = brick->states->uncertainty_of_occupied(
+      hits.voxel[i], static_cast<float>(walk.occupied_uncertainty));
+}
+
+RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
+  const Eigen::Matrix3d R = rays.T_map_rays.linear();
+  RayBounds bounds;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Eigen::Vector3d d = R * Eigen::Vector3d(rays.x[i], rays.y[i], rays.z[i]);
+    hits.direction_x[i] = d.x();
+    hits.direction_y[i] = d.y();
+    hits.direction_z[i] = d.z();
+    bounds.far_min = bounds.far_min.cwiseMin(d * rays.range_max_m[i]);
+    bounds.far_max = bounds.far_max.cwiseMax(d * rays.range_max_m[i]);
+    bounds.near_min = bounds.near_min.cwiseMin(d * rays.range_min_m[i]);
+    bounds.near_max = bounds.near_max.cwiseMax(d * rays.range_min_m[i]);
+  }
+  return bounds;
+}
+
+void walk_all(const RayWalk& walk, RayHits& hits) {
+  for (std::size_t i = 0; i < walk.rays->size(); ++i) walk_ray(walk, i, hits);
+}
+
+}  // namespace
+
+CasterKernel scalar_kernel() { return {rotate_and_bound, walk_all}; }
+
+}  // namespace nbvopt::detail

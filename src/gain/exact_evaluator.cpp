@@ -1,0 +1,50 @@
+#include "nbvopt/gain/view_evaluator.hpp"
+
+namespace nbvopt {
+namespace {
+
+class ExactEvaluator final : public ViewEvaluator {
+ public:
+  ExactEvaluator(std::shared_ptr<const VoxelGrid> grid, const DepthCamera& camera,
+                 const std::string& gain_model, SimdLevel level)
+      : grid_(std::move(grid)),
+        camera_(camera),
+        gain_model_(make_gain_model(gain_model, camera_)),
+        level_(level) {}
+
+  std::string name() const override { return "exact"; }
+
+  ViewGain evaluate(const Transform& T_map_sensor) const override {
+    const CameraRays& camera_rays = camera_.rays();
+    RayBundle rays;
+    rays.T_map_rays = T_map_sensor;
+    rays.x = camera_rays.x;
+    rays.y = camera_rays.y;
+    rays.z = camera_rays.z;
+    rays.range_min_m = camera_rays.range_min_m;
+    rays.range_max_m = camera_rays.range_max_m;
+    rays.near_blocking = camera_.options().near_blocking;
+    // Storage of a view's rays, kept a thread: it is as large as the image, not as the map.
+    thread_local RayHits hits;
+    thread_local GainScratch scratch;
+    cast_rays(*grid_, rays, camera_.options().occupied_uncertainty, hits, level_);
+    return gain_model_->gain(hits, scratch);
+  }
+
+ private:
+  std::shared_ptr<const VoxelGrid> grid_;  // shared with the caller, who publishes it
+  DepthCamera camera_;
+  std::unique_ptr<GainModel> gain_model_;
+  SimdLevel level_;
+};
+
+}  // namespace
+
+std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelGrid> grid,
+                                                    const DepthCamera& camera,
+                                                    const std::string& gain_model,
+                                                    SimdLevel level) {
+  return std::make_unique<ExactEvaluator>(std::move(grid), camera, gain_model, level);
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,154 @@
+#include "nbvopt/gain/ray_caster.hpp"
+
+#include <hwy/targets.h>
+
+#include <cmath>
+
+#include "gain/ray_walk.hpp"
+#include "map/brick_table.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+using detail::BrickBox;
+using detail::BrickKey;
+
+/// The brick that holds a voxel; keys may lie off the lattice, where nothing is known.
+BrickKey brick_at(const Eigen::Vector3i& key) {
+  return {key.x() >> detail::kBrickBits, key.y() >> detail::kBrickBits,
+          key.z() >> detail::kBrickBits};
+}
+
+/// The keys of a box around the origin, one voxel wider for rounding.
+std::pair<Eigen::Vector3i, Eigen::Vector3i> keys_of(const Eigen::Vector3d& origin_lattice,
+                                                    const Eigen::Vector3d& min_m,
+                                                    const Eigen::Vector3d& max_m,
+                                                    double resolution_m) {
+  const Eigen::Array3d low = (origin_lattice + min_m / resolution_m).array().floor() - 1.0;
+  const Eigen::Array3d high = (origin_lattice + max_m / resolution_m).array().floor() + 1.0;
+  return {low.cast<int>(), high.cast<int>()};
+}
+
+/// Gathers the bricks of the box, which are read from the map where they are not ready.
+void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::LocalBricks& local) {
+  local.min = box.min;
+  local.size_x = box.max.x - box.min.x + 1;
+  local.size_y = box.max.y - box.min.y + 1;
+  local.size_z = box.max.z - box.min.z + 1;
+  const auto collect = [&] {
+    local.brick.clear();
+    local.code.clear();
+    bool complete = true;
+    box.for_each([&](BrickKey key) {
+      const detail::Brick* brick = grid.table().ready_brick(key);
+      complete = complete && brick != nullptr;
+      local.brick.push_back(brick);
+      local.code.push_back(brick != nullptr ? brick->code.data() : nullptr);
+    });
+    return complete;
+  };
+  if (collect()) return;
+  grid.table().make_ready(box);
+  collect();
+}
+
+VoxelKey clamped_key(const Eigen::Vector3i& key) {
+  const Eigen::Vector3i k = key.cwiseMax(0).cwiseMin(65535);
+  return {static_cast<std::uint16_t>(k.x()), static_cast<std::uint16_t>(k.y()),
+          static_cast<std::uint16_t>(k.z())};
+}
+
+/// The instruction sets that Highway may use at a level, as its bits.
+std::int64_t hwy_targets(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::avx512:
+      return HWY_AVX3;
+    case SimdLevel::avx2:
+      return HWY_AVX2;
+    case SimdLevel::sse4:
+      return HWY_SSE4;
+    case SimdLevel::best:
+    case SimdLevel::scalar:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void RayHits::resize(std::size_t n) {
+  kind.resize(n);
+  face.resize(n);
+  voxel.resize(n);
+  distance_m.resize(n);
+  uncertainty.resize(n);
+  direction_x.resize(n);
+  direction_y.resize(n);
+  direction_z.resize(n);
+}
+
+const char* to_string(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::best:
+      return "best";
+    case SimdLevel::avx512:
+      return "avx512";
+    case SimdLevel::avx2:
+      return "avx2";
+    case SimdLevel::sse4:
+      return "sse4";
+    case SimdLevel::scalar:
+      return "scalar";
+  }
+  return "?";
+}
+
+std::vector<SimdLevel> supported_simd_levels() {
+  std::vector<SimdLevel> levels;
+  for (const SimdLevel level : {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::sse4}) {
+    if ((detail::simd_kernel_targets() & hwy::SupportedTargets() & hwy_targets(level)) != 0) {
+      levels.push_back(level);
+    }
+  }
+  levels.push_back(SimdLevel::scalar);
+  return levels;
+}
+
+void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+               RayHits& hits, SimdLevel level) {
+  const Eigen::Vector3d origin_m = rays.T_map_rays.translation();
+  if (!rays.T_map_rays.matrix().allFinite()) {
+    throw InputError("the pose of the rays holds a number that is not finite");
+  }
+  if (!grid.lattice().contains(origin_m)) {
+    throw InputError("the camera is off the map's lattice, which spans 65536 voxels an axis");
+  }
+  hits.resize(rays.size());
+  const detail::CasterKernel kernel = level == SimdLevel::scalar
+                                          ? detail::scalar_kernel()
+                                          : detail::simd_kernel(hwy_targets(level));
+  const detail::RayBounds bounds = kernel.rotate_and_bound(rays, hits);
+
+  detail::RayWalk walk;
+  walk.rays = &rays;
+  walk.resolution_m = grid.lattice().resolution_m();
+  const Eigen::Vector3d origin_lattice = grid.lattice().to_lattice(origin_m);
+  const Eigen::Vector3d origin_floor = origin_lattice.array().floor();
+  walk.origin_key = origin_floor.cast<int>();
+  walk.origin_in_voxel = origin_lattice - origin_floor;
+  walk.occupied_uncertainty =
+      grid.carries_uncertainty() ? double{kUnknownUncertainty} : occupied_uncertainty;
+
+  const auto [far_low, far_high] =
+      keys_of(origin_lattice, bounds.far_min, bounds.far_max, walk.resolution_m);
+  fill_local_bricks(grid, {brick_at(far_low), brick_at(far_high)}, walk.bricks);
+  if (rays.near_blocking) {
+    const auto [near_low, near_high] =
+        keys_of(origin_lattice, bounds.near_min, bounds.near_max, walk.resolution_m);
+    walk.walk_near = grid.any_occupied({clamped_key(near_low), clamped_key(near_high)});
+  }
+  kernel.walk(walk, hits);
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,34 @@
+#include "map/brick.hpp"
+
+namespace nbvopt::detail {
+
+void BrickStates::finish(const float* uncertainty_of_voxels) {
+  uncertainty.clear();
+  has_occupied = false;
+  has_free = false;
+  bool any_below_one = false;
+  for (int row = 0; row < kBrickRows; ++row) {
+    occupied_before_row[row] = static_cast<std::uint16_t>(uncertainty.size());
+    has_free |= free[row] != 0;
+    for (std::uint32_t left = occupied[row]; left != 0; left &= left - 1) {
+      const float u = uncertainty_of_voxels[row * kBrickSize + std::countr_zero(left)];
+      any_below_one |= u != kUnknownUncertainty;
+      uncertainty.push_back(u);
+    }
+  }
+  has_occupied = !uncertainty.empty();
+  if (!any_below_one) uncertainty.clear();
+  uncertainty.shrink_to_fit();
+}
+
+const std::shared_ptr<const Brick>& unknown_brick() {
+  static const std::shared_ptr<const Brick> brick = [] {
+    auto b = std::make_shared<Brick>();
+    b->states = std::make_shared<BrickStates>();
+    b->code.fill(kUnknownCode);
+    return b;
+  }();
+  return brick;
+}
+
+}  // namespace nbvopt::detail

@@ -1,0 +1,89 @@
+#include "map/brick_reader.hpp"
+
+#include <algorithm>
+
+#include "map/uncertainty_octree.hpp"
+
+namespace nbvopt::detail {
+namespace {
+
+constexpr int kBrickDepth = UncertaintyOcTree::kDepth - kBrickBits;
+
+/// The states of a brick while its leaves come in.
+class BrickFiller {
+ public:
+  /// A leaf spans the cube of `size` voxels, at most a brick, from `origin` on.
+  void fill(const UncertaintyOcTreeNode& leaf, bool occupied, VoxelKey origin, int size) {
+    auto& rows = occupied ? states_->occupied : states_->free;
+    const int x = origin.x & kBrickMask;
+    const auto bits = static_cast<std::uint32_t>(((std::uint64_t{1} << size) - 1) << x);
+    for (int dz = 0; dz < size; ++dz) {
+      for (int dy = 0; dy < size; ++dy) {
+        const int row = row_of(origin) + dy + dz * kBrickSize;
+        rows[row] |= bits;
+        if (!occupied || leaf.uncertainty() == kUnknownUncertainty) continue;
+        std::fill_n(&uncertainty_[row * kBrickSize + x], size, leaf.uncertainty());
+      }
+    }
+  }
+
+  std::shared_ptr<const BrickStates> finish() {
+    states_->finish(uncertainty_.data());
+    return std::move(states_);
+  }
+
+ private:
+  std::shared_ptr<BrickStates> states_ = std::make_shared<BrickStates>();
+  std::vector<float> uncertainty_ = std::vector<float>(kBrickVoxels, kUnknownUncertainty);
+};
+
+/// `node` spans 2^levels blocks an axis from `block` on.
+void collect_blocks(const UncertaintyOcTree& tree, const UncertaintyOcTreeNode* node,
+                    BrickKey block, int levels, std::vector<BrickKey>& blocks) {
+  if (levels == 0) {
+    blocks.push_back(block);
+    return;
+  }
+  const int half = 1 << (levels - 1);
+  for (int child = 0; child < 8; ++child) {
+    // All parts of a pruned leaf are like it.
+    const bool is_leaf = !tree.nodeHasChildren(node);
+    if (!is_leaf && !tree.nodeChildExists(node, child)) continue;
+    collect_blocks(tree, is_leaf ? node : tree.getNodeChild(node, child),
+                   {block.x + (child & 1 ? half : 0), block.y + (child & 2 ? half : 0),
+                    block.z + (child & 4 ? half : 0)},
+                   levels - 1, blocks);
+  }
+}
+
+}  // namespace
+
+std::vector<BrickKey> known_blocks(const UncertaintyOcTree& tree) {
+  std::vector<BrickKey> blocks;
+  if (tree.getRoot() != nullptr) {
+    collect_blocks(tree, tree.getRoot(), {0, 0, 0}, kBrickDepth - kBlockBits, blocks);
+  }
+  return blocks;
+}
+
+std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, BrickKey brick) {
+  const UncertaintyOcTreeNode* node = tree.getRoot();
+  for (int bit = kBrickDepth - 1; bit >= 0 && node != nullptr; --bit) {
+    if (!tree.nodeHasChildren(node)) break;  // a pruned leaf that covers the brick
+    const int child = (brick.x >> bit & 1) | (brick.y >> bit & 1) << 1 | (brick.z >> bit & 1) << 2;
+    node = tree.nodeChildExists(node, child) ? tree.getNodeChild(node, child) : nullptr;
+  }
+  if (node == nullptr) return nullptr;
+  const VoxelKey origin{static_cast<std::uint16_t>(brick.x * kBrickSize),
+                        static_cast<std::uint16_t>(brick.y * kBrickSize),
+                        static_cast<std::uint16_t>(brick.z * kBrickSize)};
+  BrickFiller filler;
+  for_each_leaf(tree, *node, origin, kBrickDepth,
+                [&](const UncertaintyOcTreeNode& leaf, VoxelKey leaf_origin, int depth) {
+                  filler.fill(leaf, tree.isNodeOccupied(&leaf), leaf_origin,
+                              1 << (UncertaintyOcTree::kDepth - depth));
+                });
+  return filler.finish();
+}
+
+}  // namespace nbvopt::detail

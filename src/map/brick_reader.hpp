@@ -1,0 +1,24 @@
+// Reads bricks from the octree.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "map/brick.hpp"
+
+namespace nbvopt {
+class UncertaintyOcTree;
+}
+
+namespace nbvopt::detail {
+
+/// Bricks come in blocks of 16 x 16 x 16; a block's address is its bricks' keys divided by 16.
+inline constexpr int kBlockBits = 4;
+
+/// The blocks in which the tree knows anything, each once.
+std::vector<BrickKey> known_blocks(const UncertaintyOcTree& tree);
+
+/// The states of one brick; null when nothing of it is known.
+std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, BrickKey brick);
+
+}  // namespace nbvopt::detail

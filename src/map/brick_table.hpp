@@ -1,0 +1,119 @@
+// Where the bricks of a grid are.
+//
+// The table is a box of blocks of 16 x 16 x 16 bricks; blocks in which the map knows nothing do
+// not exist, so a stray voxel far away costs one block and no more.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "map/brick.hpp"
+#include "map/brick_reader.hpp"
+
+namespace nbvopt::detail {
+
+/// A closed box of bricks.
+struct BrickBox {
+  BrickKey min;
+  BrickKey max;
+
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (int z = min.z; z <= max.z; ++z) {
+      for (int y = min.y; y <= max.y; ++y) {
+        for (int x = min.x; x <= max.x; ++x) visit(BrickKey{x, y, z});
+      }
+    }
+  }
+};
+
+inline BrickBox bricks_of(const KeyBox& box) { return {brick_of(box.min), brick_of(box.max)}; }
+
+class BrickTable {
+ public:
+  /// A table that reads bricks from the tree when they are first asked for.
+  explicit BrickTable(const UncertaintyOcTree& tree);
+
+  /// A table of the same bricks, with the changes. Requires read_all() to have been called.
+  BrickTable(const BrickTable& previous, std::span<const VoxelChange> changes);
+
+  /// Reads what is left, and lets go of the tree.
+  void read_all();
+  bool is_whole() const { return tree_ == nullptr; }
+
+  /// Makes the bricks of the box ready. Thread-safe.
+  void make_ready(const BrickBox& box) const;
+
+  /// A brick that was made ready; never null. Lock-free.
+  const Brick* ready_brick(BrickKey key) const {
+    const Block* block = block_of(key);
+    if (block == nullptr) return unknown_;
+    return block->ready[slot_of(key)].load(std::memory_order_acquire);
+  }
+
+  std::size_t memory_bytes() const;
+
+ private:
+  static constexpr int kBlockSize = 1 << kBlockBits;
+  static constexpr int kBlockBricks = kBlockSize * kBlockSize * kBlockSize;
+
+  struct Block {
+    BrickKey key;
+    std::array<std::atomic<const Brick*>, kBlockBricks> ready{};
+    std::array<std::shared_ptr<const Brick>, kBlockBricks> owned;  ///< shared by grid versions
+
+    void store(int slot, std::shared_ptr<const Brick> brick) {
+      owned[slot] = std::move(brick);
+      ready[slot].store(owned[slot].get(), std::memory_order_release);
+    }
+  };
+
+  static constexpr BrickKey block_key(BrickKey brick) {
+    return {brick.x >> kBlockBits, brick.y >> kBlockBits, brick.z >> kBlockBits};
+  }
+  static constexpr int slot_of(BrickKey brick) {
+    constexpr int kMask = kBlockSize - 1;
+    return (brick.x & kMask) | (brick.y & kMask) << kBlockBits |
+           (brick.z & kMask) << (2 * kBlockBits);
+  }
+
+  /// The place of a block in blocks_, or -1 outside the box of blocks.
+  int place_of(BrickKey block) const {
+    const int x = block.x - min_.x;
+    const int y = block.y - min_.y;
+    const int z = block.z - min_.z;
+    const bool inside = static_cast<unsigned>(x) < static_cast<unsigned>(size_.x) &&
+                        static_cast<unsigned>(y) < static_cast<unsigned>(size_.y) &&
+                        static_cast<unsigned>(z) < static_cast<unsigned>(size_.z);
+    return inside ? x + size_.x * (y + size_.y * z) : -1;
+  }
+  Block* block_of(BrickKey brick) const {
+    const int place = place_of(block_key(brick));
+    return place < 0 ? nullptr : blocks_[place].get();
+  }
+
+  /// Lays out blocks_ over the given blocks.
+  void lay_out(const std::vector<BrickKey>& blocks);
+
+  // Under mutex_, while bricks are read from the tree.
+  void read(BrickKey key) const;
+  const BrickStates* states_of(BrickKey key) const;
+
+  const UncertaintyOcTree* tree_ = nullptr;  ///< null once everything is read
+  const Brick* unknown_;
+  BrickKey min_;
+  BrickKey size_{0, 0, 0};
+  /// Shared with other versions of the grid; a version writes only blocks of its own.
+  std::vector<std::shared_ptr<Block>> blocks_;
+
+  mutable std::mutex mutex_;
+  /// States read from the tree, ahead of the codes, which need the neighbours' states too.
+  mutable std::unordered_map<std::uint64_t, std::shared_ptr<const BrickStates>> states_;
+};
+
+}  // namespace nbvopt::detail

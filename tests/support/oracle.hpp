@@ -1,0 +1,69 @@
+// The known answers that lie beside the project, where they are there.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "nbvopt/core/transform.hpp"
+#include "nbvopt/mast/mast.hpp"
+#include "nbvopt/sensor/sensor_options.hpp"
+
+namespace nbvopt::testing {
+
+inline std::filesystem::path shared_dir() { return NBVOPT_SHARED_DIR; }
+
+/// Skips the test, saying so, where the shared maps and oracles are not there.
+#define NBVOPT_REQUIRE_SHARED()                                             \
+  if (!std::filesystem::exists(::nbvopt::testing::shared_dir() / "oracle")) \
+  GTEST_SKIP() << "the maps and known answers of ../shared are not here, so this was not tested"
+
+inline nlohmann::json read_oracle(const std::string& name) {
+  std::ifstream in(shared_dir() / "oracle" / name);
+  return nlohmann::json::parse(in);
+}
+
+/// The sensor block of an oracle file.
+inline SensorOptions oracle_sensor(const nlohmann::json& oracle) {
+  const nlohmann::json& s = oracle.at("sensor");
+  SensorOptions sensor;
+  sensor.half_fov_horizontal_rad = s.at("half_fov_horizontal_rad");
+  sensor.half_fov_vertical_rad = s.at("half_fov_vertical_rad");
+  sensor.horizontal_rays = s.at("horizontal_rays");
+  sensor.vertical_rays = s.at("vertical_rays");
+  sensor.range_min_m = s.at("range_min_m");
+  sensor.range_max_m = s.at("range_max_m");
+  sensor.focal_distance_m = s.at("focal_distance_m");
+  if (s.at("range_axis") == "z_depth") {
+    sensor.range_axis = RangeAxis::z_depth;
+    sensor.ray_pattern = RayPattern::equal_angles;
+    sensor.uncertainty_half_fov_horizontal_rad = s.at("uncertainty_half_fov_horizontal_rad");
+    sensor.uncertainty_half_fov_vertical_rad = s.at("uncertainty_half_fov_vertical_rad");
+    sensor.near_blocking = false;
+  }
+  return sensor;
+}
+
+inline Transform oracle_base(const nlohmann::json& c) {
+  const nlohmann::json& base = c.at("base");
+  return base_pose(base.at("x"), base.at("y"), 0.0, base.at("yaw"));
+}
+
+inline JointPosition oracle_joints(const nlohmann::json& j) {
+  return {j.at("pan"), j.at("tilt"), j.at("height")};
+}
+
+inline std::vector<Transform> oracle_poses(const nlohmann::json& oracle) {
+  std::vector<Transform> poses;
+  for (const nlohmann::json& c : oracle.at("cases")) {
+    poses.push_back(pose_from_quaternion(c.at("position").get<std::array<double, 3>>(),
+                                         c.at("orientation_xyzw").get<std::array<double, 4>>()));
+  }
+  return poses;
+}
+
+}  // namespace nbvopt::testing
