@@ -1,0 +1,19 @@
+// Files that are there whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace nbvopt {
+
+/// Writes `bytes` to a temporary file beside `path`, then renames it to `path`. Throws InputError
+/// that names the path and says why when that fails: the folder is missing or not writable, the
+/// disk is full. Then `path` is as it was and nothing else is left. A link is followed, and an
+/// existing file keeps its permissions; a device or pipe is written in place.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Throws InputError as write_file_atomically() would for a folder that is missing or not writable:
+/// to refuse a file before the work whose result it should hold.
+void require_writable(const std::filesystem::path& path);
+
+}  // namespace nbvopt

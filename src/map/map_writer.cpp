@@ -1,0 +1,171 @@
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/atomic_file.hpp"
+#include "core/number.hpp"
+#include "map/map_header.hpp"
+#include "map/uncertainty_octree.hpp"
+#include "nbvopt/map/colour_ramp.hpp"
+#include "nbvopt/map/map_file.hpp"
+
+namespace nbvopt {
+
+namespace {
+
+using Node = UncertaintyOcTreeNode;
+
+template <class Number>
+void append(std::string& bytes, const Number& number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(Number));
+}
+
+/// The header as OctoMap writes it, but with the resolution's every digit.
+std::string header(const char* magic, const char* tree_type, std::uint64_t nodes,
+                   double resolution_m) {
+  return std::string(magic) +
+         "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+         "id " +
+         tree_type + "\nsize " + std::to_string(nodes) + "\nres " + format_number(resolution_m) +
+         "\ndata\n";
+}
+
+/// Appends a node as .ot files hold it: its values (append_values), a mask of its children, them.
+template <class AppendValues>
+void append_full_node(const UncertaintyOcTree& tree, const Node& node,
+                      const AppendValues& append_values, std::string& bytes) {
+  append_values(node, bytes);
+  std::uint8_t mask = 0;
+  for (int i = 0; i < 8; ++i) {
+    if (tree.nodeChildExists(&node, i)) mask |= static_cast<std::uint8_t>(1U << i);
+  }
+  append(bytes, mask);
+  for (int i = 0; i < 8; ++i) {
+    if (mask >> i & 1) append_full_node(tree, *tree.getNodeChild(&node, i), append_values, bytes);
+  }
+}
+
+template <class AppendValues>
+std::string full_file(const UncertaintyOcTree& tree, const char* tree_type,
+                      const AppendValues& append_values) {
+  std::string bytes = header(kFullMagic, tree_type, tree.size(), tree.getResolution());
+  if (tree.getRoot() != nullptr) append_full_node(tree, *tree.getRoot(), append_values, bytes);
+  return bytes;
+}
+
+std::string uncertainty_file(const UncertaintyOcTree& tree) {
+  return full_file(tree, "UncertaintyOcTree", [](const Node& node, std::string& bytes) {
+    append(bytes, node.getLogOdds());
+    append(bytes, node.colour());
+    append(bytes, node.uncertainty());
+  });
+}
+
+std::array<std::uint8_t, 3> shown_colour(const UncertaintyOcTree& tree, const Node& node) {
+  return tree.isNodeOccupied(&node) ? uncertainty_colour(node.uncertainty()) : kNoColour;
+}
+
+std::string colour_file(const UncertaintyOcTree& tree) {
+  return full_file(tree, "ColorOcTree", [&tree](const Node& node, std::string& bytes) {
+    append(bytes, node.getLogOdds());
+    append(bytes, shown_colour(tree, node));
+  });
+}
+
+/// Writes the most likely state of each voxel, pruned: two bits a child.
+class BinaryWriter {
+ public:
+  explicit BinaryWriter(const UncertaintyOcTree& tree) : tree_(tree) {}
+
+  std::string file() && {
+    if (const Node* root = tree_.getRoot(); root != nullptr) {
+      ++nodes_;
+      append_children(*root);
+    }
+    return header(kBinaryMagic, "OcTree", nodes_, tree_.getResolution()) + bytes_;
+  }
+
+ private:
+  enum Code : std::uint16_t { unknown = 0, free = 1, occupied = 2, inner = 3 };
+
+  /// Appends the codes of all children, then what is under the inner ones. Returns the codes.
+  std::uint16_t append_children(const Node& node) {
+    const std::size_t codes_at = bytes_.size();
+    bytes_.append(sizeof(std::uint16_t), '\0');
+    std::uint16_t codes = 0;
+    for (int i = 0; i < 8; ++i) codes |= static_cast<std::uint16_t>(append_child(node, i) << 2 * i);
+    bytes_[codes_at] = static_cast<char>(codes & 0xFF);
+    bytes_[codes_at + 1] = static_cast<char>(codes >> 8);
+    return codes;
+  }
+
+  Code append_child(const Node& node, int index) {
+    // The format has no code for a root that is a leaf: it is written as eight equal children.
+    const bool is_leaf_root = !tree_.nodeHasChildren(&node);
+    if (!is_leaf_root && !tree_.nodeChildExists(&node, index)) return unknown;
+    const Node& child = is_leaf_root ? node : *tree_.getNodeChild(&node, index);
+    ++nodes_;
+    if (!tree_.nodeHasChildren(&child)) return tree_.isNodeOccupied(&child) ? occupied : free;
+
+    const std::size_t bytes_before = bytes_.size();
+    const std::uint64_t nodes_before = nodes_;
+    const std::uint16_t codes = append_children(child);
+    const bool all_free = codes == 0x5555;
+    const bool all_occupied = codes == 0xAAAA;
+    if (!all_free && !all_occupied) return inner;
+    bytes_.resize(bytes_before);
+    nodes_ = nodes_before;
+    return all_free ? free : occupied;
+  }
+
+  const UncertaintyOcTree& tree_;
+  std::string bytes_;
+  std::uint64_t nodes_ = 0;
+};
+
+/// A binary .ply of the occupied voxels' centres.
+std::string ply_file(const UncertaintyMap& map) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(map.counts().occupied_voxels) +
+                      "\nproperty float x\nproperty float y\nproperty float z\n"
+                      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+  const UncertaintyOcTree& tree = map.tree();
+  for_each_leaf(tree, [&](const Node& leaf, VoxelKey origin, int depth) {
+    if (!tree.isNodeOccupied(&leaf)) return;
+    const int size = 1 << (UncertaintyOcTree::kDepth - depth);
+    for (int z = origin.z; z < origin.z + size; ++z) {
+      for (int y = origin.y; y < origin.y + size; ++y) {
+        for (int x = origin.x; x < origin.x + size; ++x) {
+          const VoxelKey key{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                             static_cast<std::uint16_t>(z)};
+          const Eigen::Vector3f centre_m = map.lattice().centre_m(key).cast<float>();
+          for (float coordinate : centre_m) append(bytes, coordinate);
+          append(bytes, shown_colour(tree, leaf));
+        }
+      }
+    }
+  });
+  return bytes;
+}
+
+std::string file_of(const UncertaintyMap& map, MapFormat format) {
+  switch (format) {
+    case MapFormat::uncertainty_ot:
+      return uncertainty_file(map.tree());
+    case MapFormat::bt:
+      return BinaryWriter(map.tree()).file();
+    case MapFormat::colour_ot:
+      return colour_file(map.tree());
+    case MapFormat::colour_ply:
+      return ply_file(map);
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_map(const UncertaintyMap& map, const std::filesystem::path& path, MapFormat format) {
+  write_file_atomically(path, file_of(map, format));
+}
+
+}  // namespace nbvopt
