@@ -23,9 +23,9 @@ using BitWindow = std::array<std::uint64_t, kWindow * kWindow>;
 /// Two erosions by radius r and s make one by r + s; a set already eroded by R may be eroded by
 /// s <= 2 R + 1 with three samples an axis, since cubes of radius R that far apart still touch.
 struct Erosion {
-  int from;
-  int by;
-  int radius;
+  std::size_t from;
+  std::size_t by;
+  std::size_t radius;
 };
 inline constexpr std::array<Erosion, 8> kErosions{{{0, 1, 1},
                                                    {1, 1, 2},
@@ -43,39 +43,37 @@ HWY_BEFORE_NAMESPACE();
 namespace nbvopt::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Erodes along x and y, then along z. Rows nearer to the window's edge than `radius`, the total
-/// radius so far, are not valid and not needed.
-void erode(const BitWindow& in, int by, int radius, BitWindow& scratch, BitWindow& out) {
+/// Each row and those `stride` before and after it, of the rows from `begin` to `end`.
+HWY_INLINE void and_three(const BitWindow& in, std::size_t begin, std::size_t end,
+                          std::size_t stride, BitWindow& out) {
   const hn::ScalableTag<std::uint64_t> d;
   const std::size_t lanes = hn::Lanes(d);
-  const int shift = by;
-  // Along x, where a row is one word.
-  for (std::size_t i = 0; i < in.size(); i += lanes) {
-    const auto row = hn::Load(d, &in[i]);
-    const auto eroded =
-        hn::And(row, hn::And(hn::ShiftLeftSame(row, shift), hn::ShiftRightSame(row, shift)));
-    hn::Store(eroded, d, &scratch[i]);
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    const auto kept = hn::And(hn::LoadU(d, &in[i]), hn::And(hn::LoadU(d, &in[i - stride]),
+                                                            hn::LoadU(d, &in[i + stride])));
+    hn::StoreU(kept, d, &out[i]);
   }
-  // Along y and z together: nine rows. Two passes of three read less.
-  const auto and_three = [&](const BitWindow& from, std::size_t begin, std::size_t end,
-                             std::size_t stride, BitWindow& to) {
-    std::size_t i = begin;
-    for (; i + lanes <= end; i += lanes) {
-      const auto kept = hn::And(hn::LoadU(d, &from[i]), hn::And(hn::LoadU(d, &from[i - stride]),
-                                                                hn::LoadU(d, &from[i + stride])));
-      hn::StoreU(kept, d, &to[i]);
-    }
-    for (; i < end; ++i) to[i] = from[i] & from[i - stride] & from[i + stride];
-  };
-  alignas(64) BitWindow along_y;
-  const std::size_t margin_y = static_cast<std::size_t>(by);
-  and_three(scratch, margin_y, in.size() - margin_y, 1, along_y);
-  const std::size_t first = static_cast<std::size_t>(radius) * kWindow;
-  and_three(along_y, first, in.size() - first, static_cast<std::size_t>(by) * kWindow, out);
+  for (; i < end; ++i) out[i] = in[i] & in[i - stride] & in[i + stride];
+}
+
+/// Erodes by `by` more voxels, `radius` in total. What lies nearer to the window's edge than that
+/// is not valid, and not needed.
+void erode(const BitWindow& in, std::size_t by, std::size_t radius, BitWindow& along_x,
+           BitWindow& along_y, BitWindow& out) {
+  const hn::ScalableTag<std::uint64_t> d;
+  const int shift = static_cast<int>(by);
+  for (std::size_t i = 0; i < in.size(); i += hn::Lanes(d)) {
+    const auto row = hn::LoadU(d, &in[i]);
+    hn::StoreU(hn::And(row, hn::And(hn::ShiftLeftSame(row, shift), hn::ShiftRightSame(row, shift))),
+               d, &along_x[i]);
+  }
+  and_three(along_x, by, in.size() - by, by, along_y);
+  and_three(along_y, radius * kWindow, in.size() - radius * kWindow, by * kWindow, out);
 }
 
 /// One byte a voxel from five bit planes.
-void expand(const std::array<BitWindow, 9>& sets, std::uint8_t* code) {
+void expand(const std::array<BitWindow, 1 + kErosions.size()>& sets, std::uint8_t* code) {
   const hn::CappedTag<std::uint8_t, kBrickSize> d;
   const std::size_t lanes = hn::Lanes(d);
   constexpr int kPlanes = 5;
@@ -88,7 +86,7 @@ void expand(const std::array<BitWindow, 9>& sets, std::uint8_t* code) {
       int previous = 0;
       for (std::size_t i = 0; i < sets.size(); ++i) {
         const auto bits = static_cast<std::uint32_t>(sets[i][row] >> kCodeReach);
-        const int value = 1 + (i == 0 ? 0 : kErosions[i - 1].radius);
+        const int value = 1 + (i == 0 ? 0 : static_cast<int>(kErosions[i - 1].radius));
         for (int b = 0; b < kPlanes; ++b) {
           if (((value ^ previous) >> b & 1) != 0) plane[b] ^= bits;
         }
@@ -109,12 +107,12 @@ void expand(const std::array<BitWindow, 9>& sets, std::uint8_t* code) {
 }
 
 void compute_free_codes(const BitWindow& free, std::uint8_t* code) {
-  alignas(64) std::array<BitWindow, 9> sets;
-  alignas(64) BitWindow scratch;
+  std::array<BitWindow, 1 + kErosions.size()> sets{};
+  BitWindow along_x{}, along_y{};
   sets[0] = free;
   for (std::size_t i = 0; i < kErosions.size(); ++i) {
     const Erosion& e = kErosions[i];
-    erode(sets[e.from], e.by, e.radius, scratch, sets[i + 1]);
+    erode(sets[e.from], e.by, e.radius, along_x, along_y, sets[i + 1]);
   }
   expand(sets, code);
 }
