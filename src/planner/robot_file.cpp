@@ -69,8 +69,10 @@ std::string to_yaml_value(bool value) { return value ? "true" : "false"; }
 std::string to_yaml_value(double value) { return format_number(value); }
 std::string to_yaml_value(int value) { return std::to_string(value); }
 std::string to_yaml_value(const Eigen::Vector3d& v) {
-  return "[" + format_number(v.x()) + ", " + format_number(v.y()) + ", " + format_number(v.z()) +
-         "]";
+  std::ostringstream out;
+  out << '[' << format_number(v.x()) << ", " << format_number(v.y()) << ", " << format_number(v.z())
+      << ']';
+  return out.str();
 }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string to_yaml_value(Enum value) { return to_string(value); }
