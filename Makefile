@@ -3,6 +3,7 @@
 PRESET ?= release
 BUILD := build/$(PRESET)
 NBVOPT := $(BUILD)/cli/nbvopt
+DEMO_QUERY := --base 2,2,0 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci build demo test bench sanitize fuzz format check-format tidy clean
@@ -24,13 +25,14 @@ demo: packages  ## find the next best view on a map that ships; its answer and p
 	@cmake --preset $(PRESET) --log-level=WARNING
 	@cmake --build --preset $(PRESET) --target nbvopt_cli
 	@mkdir -p out
-	@echo
+	@$(NBVOPT) query datasets/office_partial.ot $(DEMO_QUERY) --json-out out/answer.json --plot out/view.png
+	@echo "The answer is in out/answer.json, the picture in out/view.png"
 
 test: build  ## run all tests
 	@ctest --preset $(PRESET) --output-junit junit.xml
 
 bench: build  ## measure; compare two runs with Google Benchmark's tools/compare.py
-	@$(BUILD)/tests/bench/nbvopt_bench
+	@$(BUILD)/tests/bench/nbvopt_bench $(BENCH_ARGS)
 
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
