@@ -7,3 +7,6 @@ find_package(yaml-cpp REQUIRED CONFIG)
 # The C++ build of NLopt: the plain one is C only, without StoGO and AGS.
 find_package(NLopt REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
 find_package(Ceres 2.1 REQUIRED CONFIG)
+# Debian's C++ build of NLopt, which has StoGO and AGS; the plain one throws when asked for them.
+find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
+find_package(Ceres 2.1 REQUIRED)

@@ -12,7 +12,8 @@ void BestSeen::offer(const Point& x, double value) {
 
 bool BestSeen::is_better(const Point& x, double value) const {
   if (point_.size() == 0) return true;
-  if (std::isnan(value_) != std::isnan(value)) return std::isnan(value_);
+  if (std::isnan(value)) return false;
+  if (std::isnan(value_)) return true;
   if (value > value_) return true;
   if (value < value_) return false;
   return objective_.tie_cost(x) < objective_.tie_cost(point_);

@@ -8,7 +8,7 @@
 namespace nbvopt {
 
 /// Keeps the point of the highest value; ties go to the lowest Objective::tie_cost, then to the
-/// point offered first. A value that is NaN loses against every other.
+/// point offered first. A value that is NaN wins against nothing.
 class BestSeen {
  public:
   explicit BestSeen(const Objective& objective) : objective_(objective) {}

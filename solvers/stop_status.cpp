@@ -1,5 +1,7 @@
 #include "stop_status.hpp"
 
+#include <algorithm>
+
 namespace nbvopt {
 
 std::optional<SolveStatus> stop_status(const StopRule& stop, std::int64_t evaluations) {
@@ -7,6 +9,14 @@ std::optional<SolveStatus> stop_status(const StopRule& stop, std::int64_t evalua
   if (evaluations >= stop.max_evaluations) return SolveStatus::evaluation_limit;
   if (stop.is_expired()) return SolveStatus::time_limit;
   return std::nullopt;
+}
+
+SolveRequest bounded(const SolveRequest& request, Eigen::Index free_dimension) {
+  SolveRequest result = request;
+  if (request.stop.max_evaluations == StopRule{}.max_evaluations) {
+    result.stop.max_evaluations = std::max<std::int64_t>(1, kDefaultEvaluations * free_dimension);
+  }
+  return result;
 }
 
 std::string solve_message(SolveStatus status, std::int64_t evaluations) {
@@ -17,6 +27,8 @@ std::string solve_message(SolveStatus status, std::int64_t evaluations) {
       return "the solver was not called";
     case SolveStatus::converged:
       return "tolerances met after " + count;
+    case SolveStatus::stalled:
+      return "no progress, tolerances not met, after " + count;
     case SolveStatus::grid_complete:
       return "every candidate evaluated, " + count;
     case SolveStatus::evaluation_limit:

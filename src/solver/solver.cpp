@@ -56,6 +56,8 @@ std::string to_string(SolveStatus status) {
       return "not_run";
     case SolveStatus::converged:
       return "converged";
+    case SolveStatus::stalled:
+      return "stalled";
     case SolveStatus::grid_complete:
       return "grid_complete";
     case SolveStatus::evaluation_limit:

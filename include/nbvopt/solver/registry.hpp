@@ -13,6 +13,9 @@ namespace nbvopt {
 struct SolverOptions {
   /// Of `grid`: the step of each coordinate; 0 freezes it at the start.
   std::vector<double> grid_steps;
+  /// Of `nlopt:*` and `ceres:*`: the search has converged when a step changes every coordinate by
+  /// less than this share of the box's width.
+  double tolerance = 1e-4;
 };
 
 std::vector<std::string> solver_names();

@@ -15,6 +15,7 @@ namespace nbvopt {
 enum class SolveStatus {
   not_run,
   converged,      ///< the solver's own tolerances were met
+  stalled,        ///< the solver gave up before its tolerances were met, such as on NaN
   grid_complete,  ///< every candidate was evaluated
   evaluation_limit,
   time_limit,
@@ -28,7 +29,8 @@ struct SolverNeeds {
   bool residuals = false;
 };
 
-/// One search: where it starts, when it stops, its seed.
+/// One search: where it starts, when it stops, its seed. Without an evaluation limit every solver
+/// but `grid` sets its own, 200 a coordinate that is not frozen, so that every search ends.
 struct SolveRequest {
   Point start;  ///< inside the box; always evaluated
   StopRule stop;
