@@ -118,8 +118,9 @@ void set_fields(SensorOptions& sensor, std::span<const FieldSetting> settings,
                        [key](const FieldSetting& setting) { return setting.key == key; });
   };
   set_all(sensor, settings, file);
-  if (gives("range_axis") && sensor.range_axis == RangeAxis::z_depth && !gives("ray_pattern")) {
-    sensor.ray_pattern = RayPattern::equal_angles;
+  if (gives("range_axis") && sensor.range_axis == RangeAxis::z_depth) {
+    if (!gives("ray_pattern")) sensor.ray_pattern = RayPattern::equal_angles;
+    if (!gives("near_blocking")) sensor.near_blocking = false;
   }
 }
 

@@ -127,15 +127,18 @@ TEST(RobotFile, MissingFileIsNamed) {
               HasSubstr("no/such/robot.yaml: "));
 }
 
-TEST(RobotFields, DepthAlongTheAxisImpliesEqualAngles) {
+TEST(RobotFields, DepthAlongTheAxisImpliesTheReleasedCodesRays) {
   const std::vector<FieldSetting> axis_only{{"range_axis", "z_depth"}};
   SensorOptions sensor;
   set_fields(sensor, axis_only, "poses.json");
   EXPECT_EQ(sensor.ray_pattern, RayPattern::equal_angles);
+  EXPECT_FALSE(sensor.near_blocking);
 
-  const std::vector<FieldSetting> both{{"range_axis", "z_depth"}, {"ray_pattern", "pixel_centres"}};
-  set_fields(sensor, both, "poses.json");
+  const std::vector<FieldSetting> all_given{
+      {"range_axis", "z_depth"}, {"ray_pattern", "pixel_centres"}, {"near_blocking", true}};
+  set_fields(sensor, all_given, "poses.json");
   EXPECT_EQ(sensor.ray_pattern, RayPattern::pixel_centres);
+  EXPECT_TRUE(sensor.near_blocking);
 }
 
 TEST(EditDistance, CountsEdits) {

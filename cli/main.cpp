@@ -1,0 +1,56 @@
+// nbvopt: the command line tool. Each subcommand has a file pair; this one reads the command line
+// and turns what goes wrong into one line and an exit code.
+#include <CLI/CLI.hpp>
+#include <array>
+
+#include "cli/evaluate.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/output.hpp"
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/core/version.hpp"
+
+namespace nbvopt {
+namespace {
+
+constexpr std::array kSubcommands{set_up_evaluate};
+
+/// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
+void run(int argc, char** argv) {
+  CLI::App app("Where should a camera on a pan / tilt / telescopic mast look next?", "nbvopt");
+  app.set_version_flag("--version", version_report(), "print the versions that decide answers");
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 answered, 2 wrong command line, 3 unusable file or value, 4 internal error.\n"
+      "Errors are one line on standard error; standard output holds answers only.\n"
+      "nbvopt SUBCOMMAND --help says more.");
+  for (const auto set_up : kSubcommands) set_up(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    app.exit(help_or_version);
+  }
+}
+
+int fail(ExitCode code, const std::string& message) {
+  print_message(message);
+  return code;
+}
+
+}  // namespace
+}  // namespace nbvopt
+
+int main(int argc, char** argv) {
+  using namespace nbvopt;
+  try {
+    run(argc, argv);
+    return kAnswered;
+  } catch (const CLI::ParseError& error) {
+    return fail(kUsageError, std::string(error.what()) + " (nbvopt --help tells more)");
+  } catch (const UsageError& error) {
+    return fail(kUsageError, error.what());
+  } catch (const InputError& error) {
+    return fail(kInputError, error.what());
+  } catch (const std::exception& error) {
+    return fail(kInternalError, std::string("internal error: ") + error.what());
+  }
+}

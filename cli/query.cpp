@@ -1,0 +1,194 @@
+#include "cli/query.hpp"
+
+#include <tbb/global_control.h>
+
+#include <CLI/Option.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/arguments.hpp"
+#include "cli/plot.hpp"
+#include "cli/query_answer.hpp"
+#include "cli/view_arguments.hpp"
+#include "core/atomic_file.hpp"
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/robot_fields.hpp"
+#include "nbvopt/solver/registry.hpp"
+
+namespace nbvopt {
+namespace {
+
+struct QueryOptions {
+  std::string map_file;
+  Transform T_map_base = Transform::Identity();
+  double pan_rad = 0.0;
+  double tilt_rad = 0.0;
+  std::optional<double> height_m;  ///< none: the mast's lowest
+  double motion_time_s = 0.0;
+  ViewArguments view;
+  std::optional<double> occupied_uncertainty;  ///< none: as the robot says
+  std::string solver = "grid";
+  double step_pan_rad = 0.8;
+  double step_tilt_rad = 0.0;
+  double step_height_m = 0.0;
+  double min_gain = PlanRequest{}.min_gain;
+  std::int64_t seed = 1;
+  std::optional<double> time_limit_ms;
+  std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
+  bool json = false;
+  std::string json_file;
+  std::string plot_file;
+};
+
+void check(const QueryOptions& options) {
+  if (options.motion_time_s < 0.0) {
+    throw InputError("--motion-time is " + format_number(options.motion_time_s) +
+                     " s, it must be 0 (no limit) or more");
+  }
+  if (options.time_limit_ms && *options.time_limit_ms <= 0.0) {
+    throw InputError("--time-limit-ms is " + format_number(*options.time_limit_ms) +
+                     ", it must be greater than 0");
+  }
+  // A search whose answer could not be kept would be in vain.
+  for (const std::string& file : {options.json_file, options.plot_file}) {
+    if (!file.empty()) require_writable(file);
+  }
+}
+
+Robot robot_of(const QueryOptions& options) {
+  Robot robot = make_robot(options.view);
+  set_counting(robot.sensor, options.view);
+  if (options.occupied_uncertainty) {
+    const std::vector<FieldSetting> settings{
+        {"occupied_uncertainty", *options.occupied_uncertainty}};
+    set_fields(robot.sensor, settings, "--occupied-uncertainty");
+  }
+  return robot;
+}
+
+PlanRequest request_of(const QueryOptions& options, const Robot& robot) {
+  PlanRequest request;
+  request.T_map_base = options.T_map_base;
+  request.joints = {options.pan_rad, options.tilt_rad,
+                    options.height_m.value_or(robot.mast.height_min_m)};
+  request.motion_time_s = options.motion_time_s;
+  request.min_gain = options.min_gain;
+  request.seed = static_cast<std::uint64_t>(options.seed);
+  request.stop.max_evaluations = options.max_evaluations;
+  if (options.time_limit_ms) {
+    request.stop.deadline = StopRule::Clock::now() +
+                            std::chrono::duration_cast<StopRule::Clock::duration>(
+                                std::chrono::duration<double, std::milli>(*options.time_limit_ms));
+  }
+  return request;
+}
+
+void run_query(const QueryOptions& options) {
+  check(options);
+  const Robot robot = robot_of(options);
+  const auto solver = make_solver(
+      options.solver,
+      {.grid_steps = {options.step_pan_rad, options.step_tilt_rad, options.step_height_m}});
+  std::optional<tbb::global_control> thread_limit;
+  if (options.view.threads > 0) {
+    thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.view.threads));
+  }
+
+  const Stopwatch loading;
+  const UncertaintyMap map = read_map(options.map_file);
+  QueryAnswer answer{.evaluator = options.view.evaluator, .counting = robot.sensor.counting};
+  answer.map_load_ms = loading.elapsed_ms();
+  answer.request = request_of(options, robot);  // its time limit counts from here
+
+  const auto grid = VoxelGrid::lazy(map);
+  const std::shared_ptr<const ViewEvaluator> evaluator =
+      make_evaluator(options.view.evaluator, map, grid, robot.sensor);
+  const Planner planner(robot, grid, evaluator);
+  const Stopwatch filling;
+  grid->make_ready(planner.reachable_voxels(answer.request));
+  answer.grid_ms = filling.elapsed_ms();
+  answer.result = planner.plan(answer.request, *solver);
+
+  if (!options.json_file.empty()) {
+    write_file_atomically(options.json_file, to_text(to_json(answer)));
+  }
+  if (!options.plot_file.empty()) {
+    write_plot({*grid, *evaluator, robot, answer.request, answer.result}, options.plot_file);
+  }
+  if (options.json) {
+    print_answer(to_text(to_json(answer)));
+  } else {
+    for (const std::string& warning : answer.result.warnings) print_message("warning: " + warning);
+    print_answer(to_text(answer));
+  }
+}
+
+void add_situation(CLI::App& query, QueryOptions& options) {
+  query.add_option("MAP", options.map_file, "a map: .bt or .ot")->required();
+  query
+      .add_option_function<std::string>(
+          "--base",
+          [&options](const std::string& text) {
+            const auto base = numbers_argument("--base", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
+            const double z_m = base.size() == 4 ? base[2] : 0.0;
+            options.T_map_base = base_pose(base[0], base[1], z_m, base.back());
+          },
+          "the robot's base in the map: metres and radians, z is 0 when left out")
+      ->type_name("X,Y[,Z],YAW")
+      ->required();
+  add_number(query, "--motion-time", options.motion_time_s, "SECONDS",
+             "how long the joints may move; 0: no limit")
+      ->required();
+  add_number(query, "--pan", options.pan_rad, "RAD", "pan now, counter-clockwise from above");
+  add_number(query, "--tilt", options.tilt_rad, "RAD", "tilt now, positive looks up");
+  add_number(query, "--height", options.height_m, "M",
+             "height now, above the base [the mast's lowest]");
+}
+
+void add_search(CLI::App& query, QueryOptions& options) {
+  query.add_option("--solver", options.solver, "how to search")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(solver_names()))
+      ->capture_default_str();
+  add_number(query, "--step-pan", options.step_pan_rad, "RAD", "of grid; 0 keeps the pan");
+  add_number(query, "--step-tilt", options.step_tilt_rad, "RAD", "of grid; 0 keeps the tilt");
+  add_number(query, "--step-height", options.step_height_m, "M", "of grid; 0 keeps the height");
+  add_view_arguments(query, options.view);
+  add_number(query, "--occupied-uncertainty", options.occupied_uncertainty, "U",
+             "0 to 1: u of an occupied voxel when the map carries none [1]");
+  add_number(query, "--min-gain", options.min_gain, "GAIN",
+             "with less than this to be had, stay and say no_gain_in_reach");
+  add_whole_number(query, "--seed", options.seed, 0, "of solvers that draw random numbers");
+  add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",
+             "stop computing after this, from the map's load on, with the best so far [no limit]");
+  add_whole_number(query, "--max-evals", options.max_evaluations, 1,
+                   "stop after so many evaluations with the best so far");
+}
+
+void add_outputs(CLI::App& query, QueryOptions& options) {
+  query.add_flag("--json", options.json, "print one JSON object instead of text");
+  query.add_option("--json-out", options.json_file, "also write the JSON object to a file")
+      ->type_name("FILE");
+  query.add_option("--plot", options.plot_file, "draw the map, the views and the gain")
+      ->type_name("OUT.png");
+}
+
+}  // namespace
+
+void set_up_query(CLI::App& app) {
+  auto options = std::make_shared<QueryOptions>();
+  CLI::App* query = app.add_subcommand("query", "Where should the camera look next?");
+  add_situation(*query, *options);
+  add_search(*query, *options);
+  add_outputs(*query, *options);
+  query->footer(
+      "A joint up to 0.01 rad or 5 mm beyond its limits is moved into them, with a warning.\n"
+      "Example: nbvopt query map.ot --base -1.5,2,0.3 --tilt -0.2 --motion-time 0.5");
+  query->callback([options] { run_query(*options); });
+}
+
+}  // namespace nbvopt

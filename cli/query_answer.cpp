@@ -1,0 +1,100 @@
+#include "cli/query_answer.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+
+namespace nbvopt {
+namespace {
+
+Json pose_json(const Transform& T_map_sensor) {
+  const Eigen::Vector3d p = T_map_sensor.translation();
+  const Eigen::Quaterniond q(T_map_sensor.linear());
+  return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
+  char buffer[256];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  return std::string(buffer) + '\n';
+}
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string gain_line(const PlanResult& result) {
+  const double more = result.view.gain - result.current.gain;
+  if (result.current.gain <= 0.0) {
+    return line("gain    %.1f, staying gives %.1f", result.view.gain, result.current.gain);
+  }
+  return line("gain    %.1f, staying gives %.1f (%+.1f %%)", result.view.gain, result.current.gain,
+              100.0 * more / result.current.gain);
+}
+
+}  // namespace
+
+Json to_json(const QueryAnswer& answer) {
+  const PlanResult& result = answer.result;
+  return {{"pan", result.joints.pan_rad},
+          {"tilt", result.joints.tilt_rad},
+          {"height", result.joints.height_m},
+          {"pan_wrapped", wrap_angle(result.joints.pan_rad)},
+          {"gain", result.view.gain},
+          {"current_gain", result.current.gain},
+          {"unknown_gain", result.view.unknown_gain},
+          {"occupied_gain", result.view.occupied_gain},
+          {"unknown_rays", result.view.unknown_rays},
+          {"occupied_rays", result.view.occupied_rays},
+          {"free_rays", result.view.free_rays},
+          {"status", to_string(result.status)},
+          {"message", result.message},
+          {"evaluations", result.evaluations},
+          {"time_ms", result.search_time_ms},
+          {"map_load_ms", answer.map_load_ms},
+          {"grid_ms", answer.grid_ms},
+          {"move_time_s", result.move_time_s},
+          {"solver", result.solver},
+          {"seed", result.seed},
+          {"evaluator", answer.evaluator},
+          {"counting", to_string(answer.counting)},
+          {"active_bounds", result.active_bounds},
+          {"warnings", result.warnings},
+          {"pose", pose_json(result.T_map_sensor)}};
+}
+
+std::string to_text(const QueryAnswer& answer) {
+  const PlanResult& result = answer.result;
+  const JointPosition& q = result.joints;
+  const Eigen::Vector3d p = result.T_map_sensor.translation();
+  const Eigen::Vector3d forward = result.T_map_sensor.linear().col(2);
+  const double limit_s = answer.request.motion_time_s;
+
+  std::string text =
+      line("look    pan %.3f rad (%.1f deg), tilt %.3f rad (%.1f deg), height %.3f m", q.pan_rad,
+           degrees(q.pan_rad), q.tilt_rad, degrees(q.tilt_rad), q.height_m);
+  text += line("from    %.3f, %.3f, %.3f m in the map, along %.3f, %.3f, %.3f", p.x(), p.y(), p.z(),
+               forward.x(), forward.y(), forward.z());
+  text += gain_line(result);
+  text += line("sees    %d rays end unknown (gain %.1f), %d occupied (gain %.1f), %d free",
+               result.view.unknown_rays, result.view.unknown_gain, result.view.occupied_rays,
+               result.view.occupied_gain, result.view.free_rays);
+  text += "why     " + to_string(result.status) + ": " + result.message + '\n';
+  if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';
+  text += limit_s > 0.0 ? line("move    %.2f s of %.2f s", result.move_time_s, limit_s)
+                        : line("move    %.2f s, no limit", result.move_time_s);
+  text += line("took    %.1f ms for %lld evaluations (%s, %s, %s); map read %.1f ms, grid %.1f ms",
+               result.search_time_ms, static_cast<long long>(result.evaluations),
+               result.solver.c_str(), answer.evaluator.c_str(), to_string(answer.counting).c_str(),
+               answer.map_load_ms, answer.grid_ms);
+  return text;
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,27 @@
+// The answer of a query, for machines and for people.
+#pragma once
+
+#include <string>
+
+#include "cli/output.hpp"
+#include "nbvopt/planner/planner.hpp"
+
+namespace nbvopt {
+
+/// What the planner said, and what it cost to get there.
+struct QueryAnswer {
+  PlanRequest request;
+  PlanResult result;
+  std::string evaluator;
+  Counting counting = Counting::per_ray;
+  double map_load_ms = 0.0;
+  double grid_ms = 0.0;  ///< making the reachable bricks ready
+};
+
+/// One object with the keys that README explains.
+Json to_json(const QueryAnswer& answer);
+
+/// A few lines: where to look, what it gains, why, how long the move and the search take.
+std::string to_text(const QueryAnswer& answer);
+
+}  // namespace nbvopt

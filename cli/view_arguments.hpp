@@ -1,0 +1,35 @@
+// The options that say how views are judged; shared by the commands that judge views.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "nbvopt/gain/view_evaluator.hpp"
+#include "nbvopt/planner/robot.hpp"
+
+namespace nbvopt {
+
+struct ViewArguments {
+  std::string evaluator = "exact";
+  std::string counting;    ///< empty: as the robot says
+  std::string robot_file;  ///< empty: the paper's platform
+  std::int64_t threads = 0;
+};
+
+void add_view_arguments(CLI::App& app, ViewArguments& arguments);
+
+/// The robot of the file, its sensor as the evaluator wants it.
+Robot make_robot(const ViewArguments& arguments);
+
+/// Sets the counting that was asked for, if any: the command line wins over files.
+void set_counting(SensorOptions& sensor, const ViewArguments& arguments);
+
+/// The evaluator of that name. Throws UsageError when it cannot count as the sensor says. The map
+/// must outlive it.
+std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const UncertaintyMap& map,
+                                              std::shared_ptr<const VoxelGrid> grid,
+                                              const SensorOptions& sensor);
+
+}  // namespace nbvopt
