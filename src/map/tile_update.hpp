@@ -1,0 +1,37 @@
+// Writes what a scan says of one tile into the octree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "map/mark_window.hpp"
+#include "map/uncertainty_octree.hpp"
+
+namespace nbvopt {
+
+/// Updates the voxels of one tile in one pass over the octree's branch, which is restored and
+/// pruned on the way back. Untouched branches are not visited.
+class TileUpdate {
+ public:
+  /// Changes are appended in the order of the window's voxels.
+  TileUpdate(UncertaintyOcTree& tree, const MarkWindow& window, std::vector<VoxelChange>& changes)
+      : tree_(tree), window_(window), changes_(changes) {}
+
+  /// Updates one tile of the window.
+  void apply(std::uint32_t tile);
+
+ private:
+  using Node = UncertaintyOcTreeNode;
+
+  void descend(Node& node, bool is_new, int depth, std::uint32_t tile);
+  void update_block(Node& node, bool is_new, int level, std::uint32_t block);
+  void update_leaf(Node& leaf, bool is_new, int level, std::uint32_t block);
+  bool is_settled_free(const Node& leaf) const;
+  Node& child(Node& node, int index, bool& is_new);
+
+  UncertaintyOcTree& tree_;
+  const MarkWindow& window_;
+  std::vector<VoxelChange>& changes_;
+};
+
+}  // namespace nbvopt
