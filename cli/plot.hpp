@@ -1,0 +1,29 @@
+// The picture of an answer: what the robot knows around it, where its camera looks and should
+// look, and what other pan angles would have gained.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "nbvopt/gain/view_evaluator.hpp"
+#include "nbvopt/map/voxel_grid.hpp"
+#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/robot.hpp"
+
+namespace nbvopt {
+
+/// A question with its answer, and what they stand on. `result` is one of Planner::plan().
+struct PlotInput {
+  const VoxelGrid& grid;
+  const ViewEvaluator& evaluator;  ///< judges the pan angles of the gain chart
+  const Robot& robot;
+  const PlanRequest& request;
+  const PlanResult& result;
+  std::vector<double> candidate_pans_rad = {};  ///< marked on the gain chart
+};
+
+/// Draws the picture and writes it as PNG, whole or not at all. Throws InputError when the file
+/// cannot be written.
+void write_plot(const PlotInput& input, const std::filesystem::path& path);
+
+}  // namespace nbvopt

@@ -1,0 +1,103 @@
+#include "cli/plot.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "cli/canvas.hpp"
+#include "cli/plot_axis.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(Decimal, HasATrueMinusSignAndNoNegativeZero) {
+  EXPECT_EQ(decimal(-1.25, 1), "\u22121.2");
+  EXPECT_EQ(decimal(-0.001, 2), "0.00");
+  EXPECT_EQ(decimal(3.0, 0), "3");
+}
+
+TEST(Ticks, AreRoundAndInside) {
+  const Ticks ticks = make_ticks(-2.6, 6.4, 9);
+  EXPECT_DOUBLE_EQ(ticks.step, 1.0);
+  EXPECT_THAT(ticks.values, testing::ElementsAre(-2, -1, 0, 1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(ticks.label(-2.0), "\u22122");
+}
+
+TEST(Ticks, SayAsManyDigitsAsTheyNeed) {
+  const Ticks ticks = make_ticks(0.0, 0.2, 8);
+  EXPECT_DOUBLE_EQ(ticks.step, 0.05);
+  EXPECT_EQ(ticks.label(0.15), "0.15");
+}
+
+/// A robot in a map of nothing, or of one occupied voxel before it, that stays where it is.
+class Plot : public testing::Test {
+ protected:
+  Plot() : path_(testing::TempDir() + "/plot_test.png") {
+    request_.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
+  }
+  ~Plot() override { std::filesystem::remove(path_); }
+
+  void write(const UncertaintyMap& map, const std::filesystem::path& path) {
+    const auto grid = VoxelGrid::whole(map);
+    const Robot robot;
+    const auto evaluator = make_exact_evaluator(grid, DepthCamera(robot.sensor));
+    const Mast mast(robot.mast);
+    result_.joints = request_.joints;
+    result_.T_map_sensor = T_map_sensor(request_, mast, request_.joints);
+    result_.view = result_.current = evaluator->evaluate(result_.T_map_sensor);
+    result_.move_time_s = 0.0;
+    write_plot({*grid, *evaluator, robot, request_, result_, {-0.5, 0.5}}, path);
+  }
+
+  std::string written() const {
+    std::ostringstream bytes;
+    bytes << std::ifstream(path_, std::ios::binary).rdbuf();
+    return bytes.str();
+  }
+
+  std::filesystem::path path_;
+  PlanRequest request_;
+  PlanResult result_;
+};
+
+TEST_F(Plot, IsAPngFile) {
+  result_.box = {{-1.0, -0.5, 0.2}, {1.0, 0.5, 0.6}};
+  write(UncertaintyMap(0.1), path_);
+  EXPECT_THAT(written(), StartsWith("\x89PNG\r\n\x1a\n"));
+}
+
+TEST_F(Plot, ShowsTheMap) {
+  result_.box = {{-1.0, -0.5, 0.2}, {1.0, 0.5, 0.6}};
+  UncertaintyMap map(0.1);
+  write(map, path_);
+  const std::string empty = written();
+  map.set(map.lattice().key({2.05, 0.05, 0.45}),
+          {.state = VoxelState::occupied, .log_odds = 3.5F, .uncertainty = 0.5F});
+  map.finish_writing();
+  write(map, path_);
+  EXPECT_NE(written(), empty);
+}
+
+TEST_F(Plot, DrawsAPanThatCannotMove) {
+  result_.box = {request_.joints.vector(), request_.joints.vector()};
+  write(UncertaintyMap(0.1), path_);
+  EXPECT_THAT(written(), StartsWith("\x89PNG"));
+}
+
+TEST_F(Plot, RefusesAFolderThatIsMissing) {
+  result_.box = {request_.joints.vector(), request_.joints.vector()};
+  try {
+    write(UncertaintyMap(0.1), "/no/such/folder/plot.png");
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/no/such/folder"));
+  }
+}
+
+}  // namespace
+}  // namespace nbvopt
