@@ -4,6 +4,7 @@ find_package(octomap 1.9 REQUIRED CONFIG)
 find_package(hwy 1.0 REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)
+find_package(PNG 1.6 REQUIRED)
 # The C++ build of NLopt: the plain one is C only, without StoGO and AGS.
 find_package(NLopt REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
 find_package(Ceres 2.1 REQUIRED CONFIG)

@@ -1,5 +1,3 @@
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -7,13 +5,14 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/input_file.hpp"
+#include "core/number.hpp"
 #include "map/byte_reader.hpp"
 #include "map/map_header.hpp"
 #include "map/uncertainty_octree.hpp"
+#include "map/whole_number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 
@@ -33,17 +32,6 @@ struct Header {
   std::uint64_t nodes = 0;
   double resolution_m = 0.0;
 };
-
-template <class Number>
-Number parsed(const std::string& name, const std::string& key, const std::string& text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) {
-    refuse(name, "the header's '" + key + "' is '" + text + "', a number was expected");
-  }
-  return number;
-}
 
 /// Reads up to the line "data", which the nodes follow.
 Header read_header(ByteReader& in, const std::string& name) {
@@ -67,7 +55,7 @@ Header read_header(ByteReader& in, const std::string& name) {
     words >> key >> value;
     if (key == "data") {
       if (header.tree_type.empty()) refuse(name, "the header has no 'id'");
-      if (!nodes) refuse(name, "the header has no 'size'");
+      if (!nodes) refuse(name, "the header's 'size' must be there, a number of nodes");
       if (!(header.resolution_m > 0.0) || !std::isfinite(header.resolution_m)) {
         refuse(name, "the header's 'res' must be there, positive and finite");
       }
@@ -75,8 +63,8 @@ Header read_header(ByteReader& in, const std::string& name) {
       return header;
     }
     if (key == "id") header.tree_type = value;
-    if (key == "size") nodes = parsed<std::uint64_t>(name, key, value);
-    if (key == "res") header.resolution_m = parsed<double>(name, key, value);
+    if (key == "size") nodes = parse_whole_number(value);
+    if (key == "res") header.resolution_m = parse_number(value).value_or(0.0);
   }
   refuse(name, "the header has too many lines, the file is damaged");
 }
