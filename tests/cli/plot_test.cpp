@@ -34,7 +34,7 @@ TEST(Ticks, SayAsManyDigitsAsTheyNeed) {
   EXPECT_EQ(ticks.label(0.15), "0.15");
 }
 
-/// A robot in a map of nothing, or of one occupied voxel before it, that stays where it is.
+/// A robot that stays where it is, in a map of nothing or of one occupied voxel.
 class Plot : public testing::Test {
  protected:
   Plot() : path_(testing::TempDir() + "/plot_test.png") {
@@ -76,8 +76,9 @@ TEST_F(Plot, ShowsTheMap) {
   UncertaintyMap map(0.1);
   write(map, path_);
   const std::string empty = written();
-  map.set(map.lattice().key({2.05, 0.05, 0.45}),
-          {.state = VoxelState::occupied, .log_odds = 3.5F, .uncertainty = 0.5F});
+  // Behind the robot, where no reachable view sees it: only the map can differ.
+  map.set(map.lattice().key({-2.05, 0.05, 0.45}),
+          {.state = VoxelState::occupied, .log_odds = 3.5F});
   map.finish_writing();
   write(map, path_);
   EXPECT_NE(written(), empty);

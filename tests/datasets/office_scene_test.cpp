@@ -30,7 +30,9 @@ TEST_F(OfficeScene, IsKnownInsideItsWallsAndUnknownOutside) {
 
 TEST_F(OfficeScene, HasWallsFloorAndCeiling) {
   EXPECT_EQ(state_at(0.55, -0.05, 1.0), VoxelState::occupied);
-  EXPECT_EQ(state_at(4.75, 3.05, 1.0), VoxelState::occupied);
+  EXPECT_EQ(state_at(4.65, 5.05, 1.0), VoxelState::free);
+  EXPECT_EQ(state_at(4.75, 5.05, 1.0), VoxelState::occupied);
+  EXPECT_EQ(state_at(4.85, 5.05, 1.0), VoxelState::free);
   EXPECT_EQ(state_at(1.05, 0.75, -0.05), VoxelState::occupied);
   EXPECT_EQ(state_at(1.05, 0.75, 2.65), VoxelState::occupied);
 }
