@@ -12,15 +12,16 @@ namespace nbvopt {
 namespace {
 
 std::int64_t whole_number_argument(const std::string& option, const std::string& text,
-                                   std::int64_t min) {
+                                   std::int64_t min, std::int64_t max) {
   std::int64_t value = 0;
   const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc{} || result.ptr != end) {
+  const auto [read_end, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc::invalid_argument || read_end != end) {
     throw UsageError(option + ": '" + text + "' is not a whole number");
   }
-  if (value < min) {
-    throw InputError(option + " is " + text + ", it must be " + std::to_string(min) + " or more");
+  if (error == std::errc::result_out_of_range || value < min || value > max) {
+    throw InputError(option + " is " + text + ", it must be from " + std::to_string(min) + " to " +
+                     std::to_string(max));
   }
   return value;
 }
@@ -70,12 +71,12 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<do
 }
 
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::int64_t& target,
-                              std::int64_t min, const std::string& description) {
+                              std::int64_t min, std::int64_t max, const std::string& description) {
   return app
       .add_option_function<std::string>(
           name,
-          [name, &target, min](const std::string& text) {
-            target = whole_number_argument(name, text, min);
+          [name, &target, min, max](const std::string& text) {
+            target = whole_number_argument(name, text, min, max);
           },
           description)
       ->type_name("N")

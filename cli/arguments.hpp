@@ -28,8 +28,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, 
 CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<double>& target,
                         const char* unit, const std::string& description);
 
-/// The same for a whole number of at least `min`.
+/// The same for a whole number from `min` to `max`.
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::int64_t& target,
-                              std::int64_t min, const std::string& description);
+                              std::int64_t min, std::int64_t max, const std::string& description);
 
 }  // namespace nbvopt

@@ -8,6 +8,7 @@
 #include "cli/pose_file.hpp"
 #include "cli/view_arguments.hpp"
 #include "core/text_file.hpp"
+#include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 
 namespace nbvopt {
@@ -35,6 +36,15 @@ Json to_json(const ViewGain& view) {
           {"occupied_gain", view.occupied_gain}};
 }
 
+void check_on_lattice(const PoseFile& poses, const Lattice& lattice, const std::string& file) {
+  for (std::size_t i = 0; i < poses.poses_T_map_sensor.size(); ++i) {
+    if (!lattice.contains(poses.poses_T_map_sensor[i].translation())) {
+      throw InputError(file + ": cases[" + std::to_string(i) +
+                       "]: the camera is off the map's lattice of 65536 voxels an axis");
+    }
+  }
+}
+
 void run_evaluate(const EvaluateOptions& options) {
   PoseFile poses = read_pose_file(options.pose_file, make_robot(options.view));
   set_counting(poses.sensor, options.view);
@@ -42,6 +52,7 @@ void run_evaluate(const EvaluateOptions& options) {
   const Stopwatch loading;
   const UncertaintyMap map = read_map(options.map_file);
   const double map_load_ms = loading.elapsed_ms();
+  check_on_lattice(poses, map.lattice(), options.pose_file);
 
   const auto evaluator =
       make_evaluator(options.view.evaluator, map, VoxelGrid::lazy(map), poses.sensor);

@@ -5,6 +5,8 @@
 
 #include "cli/evaluate.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/map.hpp"
+#include "cli/map.hpp"
 #include "cli/output.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
@@ -12,7 +14,7 @@
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_evaluate};
+constexpr std::array kSubcommands{set_up_evaluate, set_up_map};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

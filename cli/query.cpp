@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <CLI/Option.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,8 @@
 namespace nbvopt {
 namespace {
 
+constexpr std::int64_t kMaxWhole = std::numeric_limits<std::int64_t>::max();
+
 struct QueryOptions {
   std::string map_file;
   Transform T_map_base = Transform::Identity();
@@ -37,7 +40,7 @@ struct QueryOptions {
   double min_gain = PlanRequest{}.min_gain;
   std::int64_t seed = 1;
   std::optional<double> time_limit_ms;
-  std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
+  std::int64_t max_evaluations = kMaxWhole;
   bool json = false;
   std::string json_file;
   std::string plot_file;
@@ -100,7 +103,9 @@ void run_query(const QueryOptions& options) {
 
   const Stopwatch loading;
   const UncertaintyMap map = read_map(options.map_file);
-  QueryAnswer answer{.evaluator = options.view.evaluator, .counting = robot.sensor.counting};
+  QueryAnswer answer;
+  answer.evaluator = options.view.evaluator;
+  answer.counting = robot.sensor.counting;
   answer.map_load_ms = loading.elapsed_ms();
   answer.request = request_of(options, robot);  // its time limit counts from here
 
@@ -162,10 +167,11 @@ void add_search(CLI::App& query, QueryOptions& options) {
              "0 to 1: u of an occupied voxel when the map carries none [1]");
   add_number(query, "--min-gain", options.min_gain, "GAIN",
              "with less than this to be had, stay and say no_gain_in_reach");
-  add_whole_number(query, "--seed", options.seed, 0, "of solvers that draw random numbers");
+  add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
+                   "of solvers that draw random numbers");
   add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",
              "stop computing after this, from the map's load on, with the best so far [no limit]");
-  add_whole_number(query, "--max-evals", options.max_evaluations, 1,
+  add_whole_number(query, "--max-evals", options.max_evaluations, 1, kMaxWhole,
                    "stop after so many evaluations with the best so far");
 }
 

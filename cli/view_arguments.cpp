@@ -29,7 +29,7 @@ void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
   app.add_option("--robot", arguments.robot_file,
                  "robot and sensor, a YAML file [the paper's platform]")
       ->type_name("FILE");
-  add_whole_number(app, "--threads", arguments.threads, 0,
+  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
                    "most threads to use; 0: all cores. Answers do not depend on it");
 }
 
