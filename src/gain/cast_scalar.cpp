@@ -31,7 +31,7 @@ class ScalarRay {
   std::uint8_t code() const {
     const VoxelKey k = key();
     const BrickKey brick = brick_of(k);
-    return walk_.bricks.code[walk_.bricks.place_of(brick)][index_of(k)];
+    return walk_.bricks.code[walk_.bricks.place_of(brick)][code_index(k)];
   }
 
   /// Where the ray leaves the cube of this radius around its voxel; remembers the axis.

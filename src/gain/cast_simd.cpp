@@ -44,6 +44,18 @@ HWY_INLINE VecF load_demoted(const double* from) {
                      hn::DemoteTo(half_f, hn::LoadU(dd, from)));
 }
 
+constexpr std::size_t kMaxLanes = 16;
+
+/// One half of a vector of as many floats or integers as a batch has rays.
+template <int kHalf>
+HWY_INLINE hn::Vec<HalfF> half_of(VecF v) {
+  return kHalf == 0 ? hn::LowerHalf(half_f, v) : hn::UpperHalf(half_f, v);
+}
+template <int kHalf>
+HWY_INLINE VecI64 half_of(VecI v) {
+  return hn::PromoteTo(di64, kHalf == 0 ? hn::LowerHalf(half_i, v) : hn::UpperHalf(half_i, v));
+}
+
 /// One axis of a batch of rays, mirrored so that all go up; lengths in voxels.
 struct Axis {
   VecF direction;
@@ -85,31 +97,160 @@ struct Axis {
   }
 };
 
-/// As many rays as a vector has lanes.
-class Batch {
+/// As many mirrored rays as a vector has lanes, and the codes of the voxels that they are in.
+class Lanes {
  public:
-  HWY_INLINE Batch(const RayWalk& walk, const RayHits& hits, std::size_t first) : walk_(walk) {
-    x_.set_up(&hits.direction_x[first], walk.origin_in_voxel.x());
-    y_.set_up(&hits.direction_y[first], walk.origin_in_voxel.y());
-    z_.set_up(&hits.direction_z[first], walk.origin_in_voxel.z());
+  HWY_INLINE Lanes(const RayWalk& walk, const double* x, const double* y, const double* z)
+      : bricks_(walk.bricks) {
+    x_.set_up(x, walk.origin_in_voxel.x());
+    y_.set_up(y, walk.origin_in_voxel.y());
+    z_.set_up(z, walk.origin_in_voxel.z());
+    // Counted from the first local brick.
+    key_x_ = walk.origin_key.x() - bricks_.min.x * kBrickSize;
+    key_y_ = walk.origin_key.y() - bricks_.min.y * kBrickSize;
+    key_z_ = walk.origin_key.z() - bricks_.min.z * kBrickSize;
+    place_ = hn::Set(di, -1);
+    brick_low_ = brick_high_ = hn::Zero(di64);
+  }
+
+ protected:
+  HWY_INLINE void place_at(VecF distance) {
+    x_.voxel = x_.floor_at(distance);
+    y_.voxel = y_.floor_at(distance);
+    z_.voxel = z_.floor_at(distance);
+  }
+
+  HWY_INLINE VecI gather_codes() {
+    const VecI x = x_.key(key_x_);
+    const VecI y = y_.key(key_y_);
+    const VecI z = z_.key(key_z_);
+    const VecI stride_y = hn::Set(di, bricks_.size_x);
+    const VecI stride_z = hn::Set(di, bricks_.size_x * bricks_.size_y);
+    const VecI place = hn::Add(hn::ShiftRight<kBrickBits>(x),
+                               hn::Add(hn::Mul(hn::ShiftRight<kBrickBits>(y), stride_y),
+                                       hn::Mul(hn::ShiftRight<kBrickBits>(z), stride_z)));
+    if (!hn::AllTrue(di, hn::Eq(place, place_))) {
+      place_ = place;
+      const auto* codes = reinterpret_cast<const std::int64_t*>(bricks_.code.data());
+      brick_low_ = hn::GatherIndex(di64, codes, half_of<0>(place));
+      brick_high_ = hn::GatherIndex(di64, codes, half_of<1>(place));
+    }
+    // code_index().
+    const VecI low_bits = hn::Set(di, 3);
+    const VecI high_bits = hn::Set(di, kBrickMask & ~3);
+    const VecI in_cube = hn::Or(
+        hn::And(x, low_bits),
+        hn::Or(hn::ShiftLeft<2>(hn::And(y, low_bits)), hn::ShiftLeft<4>(hn::And(z, low_bits))));
+    const VecI cube = hn::Or(
+        hn::ShiftLeft<4>(hn::And(x, high_bits)),
+        hn::Or(hn::ShiftLeft<7>(hn::And(y, high_bits)), hn::ShiftLeft<10>(hn::And(z, high_bits))));
+    const VecI index = hn::Or(in_cube, cube);
+    const VecI64 low = gather(hn::Add(brick_low_, half_of<0>(index)));
+    const VecI64 high = gather(hn::Add(brick_high_, half_of<1>(index)));
+    const hn::RebindToUnsigned<HalfI> half_u;
+    const hn::RebindToUnsigned<TagI64> du64;
+    const auto both =
+        hn::Combine(hn::RebindToUnsigned<TagI>(), hn::TruncateTo(half_u, hn::BitCast(du64, high)),
+                    hn::TruncateTo(half_u, hn::BitCast(du64, low)));
+    return hn::And(hn::BitCast(di, both), hn::Set(di, 0xFF));
+  }
+
+  Axis x_, y_, z_;
+
+ private:
+  /// Eight bytes from each address; the first is the code.
+  static HWY_INLINE VecI64 gather(VecI64 address) {
+    return hn::GatherOffset(di64, static_cast<const std::int64_t*>(nullptr), address);
+  }
+
+  const LocalBricks& bricks_;
+  VecI place_;                     ///< of the lanes' bricks in the local table
+  VecI64 brick_low_, brick_high_;  ///< their codes' addresses
+  int key_x_, key_y_, key_z_;
+};
+
+/// Cones, one a batch of rays: an axis, and by how much the rays' directions differ from it along
+/// any coordinate. A cone that lies in cubes of free voxels takes its whole batch forward.
+struct ConeGroup {
+  alignas(64) std::array<double, kMaxLanes> x{}, y{}, z{};
+  alignas(64) std::array<float, kMaxLanes> spread{}, begin{}, end{};
+
+  /// The cone around the rays from `first` on.
+  HWY_INLINE void set(std::size_t cone, const RayWalk& walk, const RayHits& hits,
+                      std::size_t first) {
+    float widest = 0.0F;
+    const auto along = [&](const double* directions) HWY_ATTR {
+      const VecF d = load_demoted(directions);
+      const float low = hn::GetLane(hn::MinOfLanes(df, d));
+      const float high = hn::GetLane(hn::MaxOfLanes(df, d));
+      widest = std::max(widest, high - low);
+      return 0.5 * (double{low} + double{high});
+    };
+    x[cone] = along(&hits.direction_x[first]);
+    y[cone] = along(&hits.direction_y[first]);
+    z[cone] = along(&hits.direction_z[first]);
+    spread[cone] = 0.5F * widest;
+    const auto scale = static_cast<float>(1.0 / walk.resolution_m);
+    begin[cone] =
+        scale * hn::GetLane(hn::MinOfLanes(df, load_demoted(&walk.rays->range_min_m[first])));
+    end[cone] =
+        scale * hn::GetLane(hn::MinOfLanes(df, load_demoted(&walk.rays->range_max_m[first])));
+  }
+};
+
+/// Walks cones.
+class ConeLanes : public Lanes {
+ public:
+  HWY_INLINE ConeLanes(const RayWalk& walk, const ConeGroup& cones)
+      : Lanes(walk, cones.x.data(), cones.y.data(), cones.z.data()),
+        spread_(hn::Load(df, cones.spread.data())),
+        distance_(hn::Load(df, cones.begin.data())),
+        end_(hn::Load(df, cones.end.data())) {}
+
+  /// The distance, in voxels, up to which every ray of a cone passes free voxels only.
+  HWY_INLINE VecF march() {
+    constexpr float kRounding = 0.01F;   // voxels
+    constexpr float kWorthwhile = 1.0F;  // voxels
+    const VecF steepest = hn::Max(x_.direction, hn::Max(y_.direction, z_.direction));
+    const VecF per_voxel = hn::Div(hn::Set(df, 1.0F), hn::Add(steepest, spread_));
+    MaskF active = hn::FirstN(df, hn::Lanes(df));
+    while (!hn::AllFalse(df, active)) {
+      place_at(distance_);
+      const VecI code = gather_codes();
+      const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
+      // The cube reaches `radius` from the axis at least; a ray strays from it by
+      // leap * steepest + (distance + leap) * spread.
+      const VecF radius = hn::Sub(hn::ConvertTo(df, code), hn::Set(df, 1.0F + kRounding));
+      const VecF leap = hn::Mul(hn::NegMulAdd(distance_, spread_, radius), per_voxel);
+      active = hn::And(hn::And(active, is_free), hn::Ge(leap, hn::Set(df, kWorthwhile)));
+      distance_ = hn::IfThenElse(active, hn::Min(hn::Add(distance_, leap), end_), distance_);
+      active = hn::And(active, hn::Lt(distance_, end_));
+    }
+    return distance_;
+  }
+
+ private:
+  VecF spread_, distance_, end_;
+};
+
+/// A batch of rays on their way to what they hit.
+class Batch : public Lanes {
+ public:
+  HWY_INLINE Batch(const RayWalk& walk, const RayHits& hits, std::size_t first)
+      : Lanes(walk, &hits.direction_x[first], &hits.direction_y[first], &hits.direction_z[first]),
+        walk_(walk),
+        first_(first) {
     const VecF scale = hn::Set(df, static_cast<float>(1.0 / walk.resolution_m));
     near_ = hn::Mul(load_demoted(&walk.rays->range_min_m[first]), scale);
     far_ = hn::Mul(load_demoted(&walk.rays->range_max_m[first]), scale);
     active_ = hn::FirstN(df, hn::Lanes(df));
     blocked_ = hit_ = occupied_ = hn::Not(active_);
-    // Bricks of the table start at 0.
-    key_x_ = walk.origin_key.x() - walk.bricks.min.x * kBrickSize;
-    key_y_ = walk.origin_key.y() - walk.bricks.min.y * kBrickSize;
-    key_z_ = walk.origin_key.z() - walk.bricks.min.z * kBrickSize;
-    stride_y_ = hn::Set(di, walk.bricks.size_x);
-    stride_z_ = hn::Set(di, walk.bricks.size_x * walk.bricks.size_y);
-    place_ = hn::Set(di, -1);
   }
 
   /// Marks the rays that an occupied voxel, left before range_min, blocks.
   HWY_INLINE void walk_near() {
     start_at(hn::Zero(df));
-    while (!hn::AllFalse(df, active_)) {
+    while (is_active()) {
       const VecI code = gather_codes();
       const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
       // Unknown voxels there are passed one by one.
@@ -123,10 +264,14 @@ class Batch {
     active_ = hn::Not(blocked_);
   }
 
-  HWY_INLINE void start_at_near() { start_at(near_); }
+  /// Starts at range_min, or farther where all before is known to be free.
+  HWY_INLINE void start_beyond(float free_up_to) {
+    start_at(hn::Max(near_, hn::Set(df, free_up_to)));
+  }
+
   HWY_INLINE bool is_active() const { return !hn::AllFalse(df, active_); }
 
-  /// Takes every active ray to the next voxel that its code does not speak for.
+  /// Takes every active ray behind the cube that its code speaks for.
   HWY_INLINE void step() {
     const VecI code = gather_codes();
     const MaskF stopped = hn::RebindMask(df, hn::Gt(code, hn::Set(di, kUnknownCode - 1)));
@@ -138,18 +283,14 @@ class Batch {
     active_ = leap_where(hn::AndNot(stopped, active_), radius, far_, stopped);
   }
 
-  HWY_INLINE void store(std::size_t first, RayHits& hits) const;
+  HWY_INLINE void store(RayHits& hits) const;
 
  private:
-  static constexpr std::size_t kMaxLanes = 16;
-
   template <int kHalf>
-  HWY_INLINE void store_distances(std::size_t first, RayHits& hits) const;
+  HWY_INLINE void store_distances(RayHits& hits) const;
 
   HWY_INLINE void start_at(VecF distance) {
-    x_.voxel = x_.floor_at(distance);
-    y_.voxel = y_.floor_at(distance);
-    z_.voxel = z_.floor_at(distance);
+    place_at(distance);
     entered_axis_ = hn::Zero(di);
   }
 
@@ -178,56 +319,12 @@ class Batch {
     return before_end;
   }
 
-  HWY_INLINE VecI gather_codes() {
-    const VecI x = x_.key(key_x_);
-    const VecI y = y_.key(key_y_);
-    const VecI z = z_.key(key_z_);
-    const VecI place = hn::Add(hn::ShiftRight<kBrickBits>(x),
-                               hn::Add(hn::Mul(hn::ShiftRight<kBrickBits>(y), stride_y_),
-                                       hn::Mul(hn::ShiftRight<kBrickBits>(z), stride_z_)));
-    if (!hn::AllTrue(di, hn::Eq(place, place_))) {
-      place_ = place;
-      const auto* codes = reinterpret_cast<const std::int64_t*>(walk_.bricks.code.data());
-      brick_low_ = hn::GatherIndex(di64, codes, hn::PromoteTo(di64, hn::LowerHalf(half_i, place)));
-      brick_high_ = hn::GatherIndex(di64, codes, hn::PromoteTo(di64, hn::UpperHalf(half_i, place)));
-    }
-    const VecI mask = hn::Set(di, kBrickMask);
-    const VecI index =
-        hn::Or(hn::And(x, mask), hn::Or(hn::ShiftLeft<kBrickBits>(hn::And(y, mask)),
-                                        hn::ShiftLeft<2 * kBrickBits>(hn::And(z, mask))));
-    const std::int64_t* const zero = nullptr;
-    const VecI64 low = hn::GatherOffset(
-        di64, zero, hn::Add(brick_low_, hn::PromoteTo(di64, hn::LowerHalf(half_i, index))));
-    const VecI64 high = hn::GatherOffset(
-        di64, zero, hn::Add(brick_high_, hn::PromoteTo(di64, hn::UpperHalf(half_i, index))));
-    const hn::RebindToUnsigned<HalfI> half_u;
-    const hn::RebindToUnsigned<TagI64> du64;
-    const auto narrow_low = hn::TruncateTo(half_u, hn::BitCast(du64, low));
-    const auto narrow_high = hn::TruncateTo(half_u, hn::BitCast(du64, high));
-    const auto both = hn::Combine(hn::RebindToUnsigned<TagI>(), narrow_high, narrow_low);
-    return hn::And(hn::BitCast(di, both), hn::Set(di, 0xFF));
-  }
-
   const RayWalk& walk_;
-  Axis x_, y_, z_;
+  std::size_t first_;
   VecF near_, far_;
   MaskF active_, hit_, occupied_, blocked_;
   VecI entered_axis_;  ///< 1, 2, 3: by a face along x, y, z; 0: the ray starts in the voxel
-  VecI place_;         ///< of the lanes' bricks in the local table
-  VecI64 brick_low_, brick_high_;  ///< their codes' addresses
-  VecI stride_y_, stride_z_;
-  int key_x_, key_y_, key_z_;
 };
-
-/// One half of a vector of as many floats or integers as a batch has rays.
-template <int kHalf>
-HWY_INLINE hn::Vec<HalfF> half_of(VecF v) {
-  return kHalf == 0 ? hn::LowerHalf(half_f, v) : hn::UpperHalf(half_f, v);
-}
-template <int kHalf>
-HWY_INLINE VecI64 half_of(VecI v) {
-  return hn::PromoteTo(di64, kHalf == 0 ? hn::LowerHalf(half_i, v) : hn::UpperHalf(half_i, v));
-}
 
 /// Where rays enter the voxel's face along this axis, metres.
 template <int kHalf>
@@ -242,8 +339,8 @@ HWY_INLINE VecD entry_distance(const Axis& axis, const double* direction, double
 }
 
 template <int kHalf>
-HWY_INLINE void Batch::store_distances(std::size_t first, RayHits& hits) const {
-  const std::size_t i = first + kHalf * hn::Lanes(dd);
+HWY_INLINE void Batch::store_distances(RayHits& hits) const {
+  const std::size_t i = first_ + kHalf * hn::Lanes(dd);
   const VecI64 axis = half_of<kHalf>(entered_axis_);
   const Eigen::Vector3d& o = walk_.origin_in_voxel;
   const double r = walk_.resolution_m;
@@ -263,9 +360,9 @@ HWY_INLINE void Batch::store_distances(std::size_t first, RayHits& hits) const {
   hn::StoreU(hn::IfThenElse(is_hit, hn::Max(near, distance), far), dd, &hits.distance_m[i]);
 }
 
-HWY_INLINE void Batch::store(std::size_t first, RayHits& hits) const {
-  store_distances<0>(first, hits);
-  store_distances<1>(first, hits);
+HWY_INLINE void Batch::store(RayHits& hits) const {
+  store_distances<0>(hits);
+  store_distances<1>(hits);
 
   // Kinds as numbers of HitKind; a ray that hits nothing keeps none.
   VecI kind =
@@ -292,7 +389,7 @@ HWY_INLINE void Batch::store(std::size_t first, RayHits& hits) const {
   hn::Store(z_.key(walk_.origin_key.z()), di, z.data());
   const auto none_stored = static_cast<float>(walk_.occupied_uncertainty);
   for (std::size_t lane = 0; lane < hn::Lanes(df); ++lane) {
-    const std::size_t i = first + lane;
+    const std::size_t i = first_ + lane;
     const auto hit_kind = static_cast<HitKind>(kinds[lane]);
     hits.kind[i] = hit_kind;
     const bool is_hit = hit_kind >= HitKind::unknown;
@@ -315,13 +412,36 @@ void walk_rays(const RayWalk& walk, RayHits& hits) {
     scalar_kernel().walk(walk, hits);
     return;
   }
-  for (std::size_t next = 0; next < n; next += lanes) {
-    const std::size_t first = std::min(next, n - lanes);  // the last batch may overlap
-    Batch batch(walk, hits, first);
-    if (walk.walk_near) batch.walk_near();
-    batch.start_at_near();
-    while (batch.is_active()) batch.step();
-    batch.store(first, hits);
+  const std::size_t batches = (n + lanes - 1) / lanes;
+  const auto first_ray = [&](std::size_t batch) {
+    return std::min(batch * lanes, n - lanes);  // the last batch may overlap
+  };
+  ConeGroup cones;
+  for (std::size_t group = 0; group < batches; group += lanes) {
+    const std::size_t group_size = std::min(lanes, batches - group);
+    for (std::size_t c = 0; c < lanes; ++c) {
+      cones.set(c, walk, hits, first_ray(group + std::min(c, group_size - 1)));
+    }
+    alignas(64) std::array<float, kMaxLanes> free_up_to;
+    hn::Store(ConeLanes(walk, cones).march(), df, free_up_to.data());
+    for (std::size_t c = 0; c < group_size; c += 2) {
+      // Two batches side by side: one computes while the other waits for memory.
+      const std::size_t d = std::min(c + 1, group_size - 1);
+      Batch first(walk, hits, first_ray(group + c));
+      Batch second(walk, hits, first_ray(group + d));
+      if (walk.walk_near) {
+        first.walk_near();
+        second.walk_near();
+      }
+      first.start_beyond(free_up_to[c]);
+      second.start_beyond(free_up_to[d]);
+      while (first.is_active() || second.is_active()) {
+        first.step();
+        second.step();
+      }
+      first.store(hits);
+      second.store(hits);
+    }
   }
 }
 
@@ -375,8 +495,10 @@ HWY_EXPORT(kernel);
 std::int64_t simd_kernel_targets() { return HWY_TARGETS; }
 
 CasterKernel simd_kernel(std::int64_t targets) {
+  // Asking the processor takes microseconds on a virtual machine.
+  static const std::int64_t supported = hwy::SupportedTargets();
   hwy::ChosenTarget chosen;
-  chosen.Update(targets == 0 ? hwy::SupportedTargets() : targets & hwy::SupportedTargets());
+  chosen.Update(targets == 0 ? supported : targets & supported);
   return HWY_DISPATCH_TABLE(kernel)[chosen.GetIndex()]();
 }
 

@@ -76,6 +76,14 @@ inline constexpr std::uint8_t kUnknownCode = 0x80;
 inline constexpr std::uint8_t kOccupiedCode = 0xC0;
 inline constexpr bool is_free_code(std::uint8_t code) { return code < kUnknownCode; }
 
+/// Where a voxel's code stands in its brick: cubes of 4 x 4 x 4 voxels fill a cache line each,
+/// since neighbouring rays look at neighbouring voxels.
+inline int code_index(VoxelKey key) {
+  const int in_cube = (key.x & 3) | (key.y & 3) << 2 | (key.z & 3) << 4;
+  const int cube = (key.x >> 2 & 7) | (key.y >> 2 & 7) << 3 | (key.z >> 2 & 7) << 6;
+  return in_cube | cube << 6;
+}
+
 /// The reach of a brick's codes into its neighbours, voxels.
 inline constexpr int kCodeReach = 16;
 
@@ -85,6 +93,7 @@ inline constexpr int kCodePadding = 8;
 struct Brick {
   /// Shared with those bricks of other grid versions that differ in codes only.
   std::shared_ptr<const BrickStates> states;
+  /// By code_index().
   alignas(64) std::array<std::uint8_t, kBrickVoxels + kCodePadding> code;
 };
 
@@ -95,7 +104,7 @@ const std::shared_ptr<const Brick>& unknown_brick();
 /// (dx + 1) + 3 (dy + 1) + 9 (dz + 1). Never null.
 using BrickNeighbourhood = std::array<const BrickStates*, 27>;
 
-/// Computes the codes of the brick in the middle.
+/// Computes the codes of the brick in the middle, by code_index().
 void compute_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code);
 
 }  // namespace nbvopt::detail

@@ -7,6 +7,8 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "map/brick.hpp"
 
 #ifndef NBVOPT_MAP_BRICK_CODES_ONCE
@@ -148,12 +150,22 @@ BitWindow free_window(const BrickNeighbourhood& neighbourhood) {
 
 void compute_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code) {
   const BrickStates& own = *neighbourhood[13];
-  HWY_DYNAMIC_DISPATCH(compute_free_codes)(free_window(neighbourhood), code);
+  alignas(64) std::array<std::uint8_t, kBrickVoxels> by_row;
+  HWY_DYNAMIC_DISPATCH(compute_free_codes)(free_window(neighbourhood), by_row.data());
   for (int row = 0; row < kBrickRows; ++row) {
-    std::uint8_t* const row_code = code + row * kBrickSize;
+    std::uint8_t* const row_code = &by_row[row * kBrickSize];
     for (std::uint32_t left = ~own.free[row]; left != 0; left &= left - 1) {
       const int x = std::countr_zero(left);
       row_code[x] = (own.occupied[row] >> x & 1U) != 0 ? kOccupiedCode : kUnknownCode;
+    }
+  }
+  // Four voxels along x stay together.
+  for (int row = 0; row < kBrickRows; ++row) {
+    for (int x = 0; x < kBrickSize; x += 4) {
+      const VoxelKey key{static_cast<std::uint16_t>(x),
+                         static_cast<std::uint16_t>(row & kBrickMask),
+                         static_cast<std::uint16_t>(row >> kBrickBits)};
+      std::memcpy(code + code_index(key), &by_row[row * kBrickSize + x], 4);
     }
   }
 }

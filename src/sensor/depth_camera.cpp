@@ -1,5 +1,6 @@
 #include "nbvopt/sensor/depth_camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nbvopt {
@@ -14,11 +15,34 @@ double tangent(RayPattern pattern, double half_fov_rad, int i, int n) {
   return n == 1 ? 0.0 : std::tan(half_fov_rad * (2.0 * i / (n - 1) - 1.0));
 }
 
+/// The places of an image's rays, tile by tile. A tile is as many rays as the widest vector holds.
+std::vector<std::size_t> tiled_order(int width, int height) {
+  constexpr int kTile = 4;
+  std::vector<std::size_t> order;
+  for (int top = 0; top < height; top += kTile) {
+    for (int left = 0; left < width; left += kTile) {
+      for (int row = top; row < std::min(top + kTile, height); ++row) {
+        for (int column = left; column < std::min(left + kTile, width); ++column) {
+          order.push_back(static_cast<std::size_t>(row) * width + column);
+        }
+      }
+    }
+  }
+  return order;
+}
+
 }  // namespace
 
 DepthCamera::DepthCamera(const SensorOptions& options) : options_(options) {
   options_.validate();
-  rays_ = make_rays(options_, options_.horizontal_rays, options_.vertical_rays);
+  const CameraRays by_row = make_rays(options_, options_.horizontal_rays, options_.vertical_rays);
+  for (const std::size_t i : tiled_order(options_.horizontal_rays, options_.vertical_rays)) {
+    rays_.x.push_back(by_row.x[i]);
+    rays_.y.push_back(by_row.y[i]);
+    rays_.z.push_back(by_row.z[i]);
+    rays_.range_min_m.push_back(by_row.range_min_m[i]);
+    rays_.range_max_m.push_back(by_row.range_max_m[i]);
+  }
 }
 
 CameraRays make_rays(const SensorOptions& options, int width, int height) {

@@ -77,7 +77,9 @@ TEST_P(BrickCodes, TellTheLargestListedCubeThatIsFree) {
   for (int z = 0; z < kBrickSize; z += 3) {
     for (int y = 0; y < kBrickSize; ++y) {
       for (int x = 0; x < kBrickSize; ++x) {
-        const std::uint8_t got = code[x | y << kBrickBits | z << (2 * kBrickBits)];
+        const VoxelKey key{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                           static_cast<std::uint16_t>(z)};
+        const std::uint8_t got = code[code_index(key)];
         const VoxelState state = neighbourhood.state(x, y, z);
         if (state == VoxelState::unknown) {
           ASSERT_EQ(got, kUnknownCode);

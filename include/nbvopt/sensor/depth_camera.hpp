@@ -8,8 +8,8 @@
 
 namespace nbvopt {
 
-/// The rays of one image in the sensor frame, row by row from the top left. Structure of arrays,
-/// all of size horizontal * vertical.
+/// The rays of one image in the sensor frame. Structure of arrays, all of size
+/// horizontal * vertical.
 struct CameraRays {
   std::vector<double> x, y, z;                  ///< unit direction
   std::vector<double> range_min_m, range_max_m; ///< along the ray, from the optical centre
@@ -26,7 +26,8 @@ class DepthCamera {
 
   const SensorOptions& options() const { return options_; }
 
-  /// The planning rays: horizontal_rays * vertical_rays.
+  /// The planning rays, horizontal_rays * vertical_rays, in tiles of 4 x 4: neighbours in the
+  /// image are neighbours in order, so that vectors of rays run together.
   const CameraRays& rays() const { return rays_; }
 
  private:
@@ -34,7 +35,8 @@ class DepthCamera {
   CameraRays rays_;
 };
 
-/// The rays of an image of width x height with this camera's field of view, pattern and range.
+/// The rays of an image of width x height with this camera's field of view, pattern and range, row
+/// by row from the top left.
 CameraRays make_rays(const SensorOptions& options, int width, int height);
 
 }  // namespace nbvopt
