@@ -1,13 +1,11 @@
-# Every library that the core stands on; the Debian packages are listed in packages.txt.
+# Every library that the core stands on; the Debian packages are listed in packages.txt, and
+# nbvoptConfig.cmake.in looks for the same ones.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(octomap 1.9 REQUIRED CONFIG)
 find_package(hwy 1.0 REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)
 find_package(PNG 1.6 REQUIRED)
-# The C++ build of NLopt: the plain one is C only, without StoGO and AGS.
-find_package(NLopt REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
-find_package(Ceres 2.1 REQUIRED CONFIG)
 # Debian's C++ build of NLopt, which has StoGO and AGS; the plain one throws when asked for them.
 find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
-find_package(Ceres 2.1 REQUIRED)
+find_package(Ceres 2.1 REQUIRED CONFIG)
