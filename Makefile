@@ -3,7 +3,7 @@
 PRESET ?= release
 BUILD := build/$(PRESET)
 NBVOPT := $(BUILD)/cli/nbvopt
-DEMO_QUERY := --base 2,2,0 --pan 0 --tilt 0 --height 0.4 --motion-time 1
+DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci build demo test bench sanitize fuzz format check-format tidy clean
