@@ -3,6 +3,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -69,6 +70,13 @@ std::pair<const char*, MapFormat> output_format(const std::string& name, const s
                    "--format");
 }
 
+/// A number for people.
+std::string rounded(double value, int digits) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
 /// The known box in the map frame: its least and its greatest corner.
 std::pair<Eigen::Vector3d, Eigen::Vector3d> corners_m(const Lattice& lattice, const KeyBox& box) {
   const Eigen::Vector3d half_voxel_m = Eigen::Vector3d::Constant(lattice.resolution_m() / 2.0);
@@ -103,7 +111,7 @@ std::string map_text(const UncertaintyMap& map) {
                      " m\noccupied voxels    " + std::to_string(counts.occupied_voxels) +
                      "\nfree voxels        " + std::to_string(counts.free_voxels) +
                      "\noccupied with u<1  " + std::to_string(counts.certain_voxels) +
-                     "\ninformation        " + format_number(counts.information) +
+                     "\ninformation        " + rounded(counts.information, 1) +
                      (counts.certain_voxels > 0 ? "" : "  (the map carries no uncertainty)") +
                      "\nleaves, nodes      " + std::to_string(counts.leaves) + ", " +
                      std::to_string(counts.nodes) + "\n";
@@ -111,8 +119,7 @@ std::string map_text(const UncertaintyMap& map) {
     const auto [min_m, max_m] = corners_m(map.lattice(), *box);
     text += "known box          ";
     for (int axis = 0; axis < 3; ++axis) {
-      text += (axis == 0 ? "" : ", ") + format_number(min_m[axis]) + " to " +
-              format_number(max_m[axis]);
+      text += (axis == 0 ? "" : ", ") + rounded(min_m[axis], 2) + " to " + rounded(max_m[axis], 2);
     }
     text += " m\n";
   }
