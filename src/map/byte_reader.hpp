@@ -25,14 +25,14 @@ class ByteReader {
     return piece;
   }
 
-  /// The bytes up to the next newline, which is taken but not returned. None when the stream ends
-  /// first or the line has more than `max_length` bytes.
+  /// The bytes up to the next newline, which is taken but not returned, or to the stream's end.
+  /// None at the end, or when the line has more than `max_length` bytes.
   std::optional<std::string> take_line(std::size_t max_length) {
     std::string line;
     while (line.size() <= max_length) {
       const char* c = take(1);
-      if (c == nullptr) return std::nullopt;
-      if (*c == '\n') return line;
+      if (c == nullptr && line.empty()) return std::nullopt;
+      if (c == nullptr || *c == '\n') return line;
       line += *c;
     }
     return std::nullopt;
