@@ -109,12 +109,12 @@ void run_query(const QueryOptions& options) {
   answer.map_load_ms = loading.elapsed_ms();
   answer.request = request_of(options, robot);  // its time limit counts from here
 
+  const Stopwatch filling;
   const auto grid = VoxelGrid::lazy(map);
   const std::shared_ptr<const ViewEvaluator> evaluator =
       make_evaluator(options.view.evaluator, map, grid, robot.sensor);
   const Planner planner(robot, grid, evaluator);
-  const Stopwatch filling;
-  grid->make_ready(planner.reachable_voxels(answer.request));
+  grid->make_ready(planner.reachable_voxels(answer.request, answer.request.joints));
   answer.grid_ms = filling.elapsed_ms();
   answer.result = planner.plan(answer.request, *solver);
 
@@ -133,6 +133,7 @@ void run_query(const QueryOptions& options) {
 }
 
 void add_situation(CLI::App& query, QueryOptions& options) {
+  query.option_defaults()->group("Where the robot is");
   query.add_option("MAP", options.map_file, "a map: .bt or .ot")->required();
   query
       .add_option_function<std::string>(
@@ -147,7 +148,8 @@ void add_situation(CLI::App& query, QueryOptions& options) {
       ->required();
   add_number(query, "--motion-time", options.motion_time_s, "SECONDS",
              "how long the joints may move; 0: no limit")
-      ->required();
+      ->required()
+      ->default_str("");
   add_number(query, "--pan", options.pan_rad, "RAD", "pan now, counter-clockwise from above");
   add_number(query, "--tilt", options.tilt_rad, "RAD", "tilt now, positive looks up");
   add_number(query, "--height", options.height_m, "M",
@@ -155,16 +157,13 @@ void add_situation(CLI::App& query, QueryOptions& options) {
 }
 
 void add_search(CLI::App& query, QueryOptions& options) {
+  query.option_defaults()->group("How to search");
   query.add_option("--solver", options.solver, "how to search")
       ->type_name("NAME")
-      ->check(CLI::IsMember(solver_names()))
       ->capture_default_str();
   add_number(query, "--step-pan", options.step_pan_rad, "RAD", "of grid; 0 keeps the pan");
   add_number(query, "--step-tilt", options.step_tilt_rad, "RAD", "of grid; 0 keeps the tilt");
   add_number(query, "--step-height", options.step_height_m, "M", "of grid; 0 keeps the height");
-  add_view_arguments(query, options.view);
-  add_number(query, "--occupied-uncertainty", options.occupied_uncertainty, "U",
-             "0 to 1: u of an occupied voxel when the map carries none [1]");
   add_number(query, "--min-gain", options.min_gain, "GAIN",
              "with less than this to be had, stay and say no_gain_in_reach");
   add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
@@ -172,10 +171,19 @@ void add_search(CLI::App& query, QueryOptions& options) {
   add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",
              "stop computing after this, from the map's load on, with the best so far [no limit]");
   add_whole_number(query, "--max-evals", options.max_evaluations, 1, kMaxWhole,
-                   "stop after so many evaluations with the best so far");
+                   "stop after so many evaluations with the best so far [no limit]")
+      ->default_str("");
+}
+
+void add_judgement(CLI::App& query, QueryOptions& options) {
+  query.option_defaults()->group("How views are judged");
+  add_view_arguments(query, options.view);
+  add_number(query, "--occupied-uncertainty", options.occupied_uncertainty, "U",
+             "0 to 1: u of an occupied voxel when the map carries none [as the robot says]");
 }
 
 void add_outputs(CLI::App& query, QueryOptions& options) {
+  query.option_defaults()->group("What to write");
   query.add_flag("--json", options.json, "print one JSON object instead of text");
   query.add_option("--json-out", options.json_file, "also write the JSON object to a file")
       ->type_name("FILE");
@@ -190,9 +198,13 @@ void set_up_query(CLI::App& app) {
   CLI::App* query = app.add_subcommand("query", "Where should the camera look next?");
   add_situation(*query, *options);
   add_search(*query, *options);
+  add_judgement(*query, *options);
   add_outputs(*query, *options);
+  std::string solvers;
+  for (const std::string& name : solver_names()) solvers += (solvers.empty() ? "" : ", ") + name;
   query->footer(
-      "A joint up to 0.01 rad or 5 mm beyond its limits is moved into them, with a warning.\n"
+      "Solvers: " + solvers +
+      ".\nA joint up to 0.01 rad or 5 mm beyond its limits is moved into them, with a warning.\n"
       "Example: nbvopt query map.ot --base -1.5,2,0.3 --tilt -0.2 --motion-time 0.5");
   query->callback([options] { run_query(*options); });
 }

@@ -69,8 +69,9 @@ void grow_known_box(const UncertaintyOcTree& tree, const Node& node, VoxelKey or
 }
 
 bool any_certain_leaf(const UncertaintyOcTree& tree, const Node& node) {
+  if (!tree.isNodeOccupied(&node)) return false;  // an inner node holds its children's maximum
   if (!tree.nodeHasChildren(&node)) {
-    return tree.isNodeOccupied(&node) && node.uncertainty() < kUnknownUncertainty;
+    return node.uncertainty() < kUnknownUncertainty;
   }
   for (int i = 0; i < 8; ++i) {
     if (tree.nodeChildExists(&node, i) && any_certain_leaf(tree, *tree.getNodeChild(&node, i))) {
@@ -134,6 +135,10 @@ std::optional<KeyBox> UncertaintyMap::known_box() const {
   std::optional<KeyBox> box;
   if (tree_->getRoot() != nullptr) grow_known_box(*tree_, *tree_->getRoot(), {}, 0, box);
   return box;
+}
+
+bool UncertaintyMap::has_occupied() const {
+  return tree_->getRoot() != nullptr && tree_->isNodeOccupied(tree_->getRoot());
 }
 
 bool UncertaintyMap::carries_uncertainty() const {

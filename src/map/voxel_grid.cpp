@@ -1,5 +1,7 @@
 #include "nbvopt/map/voxel_grid.hpp"
 
+#include <algorithm>
+
 #include "map/brick_table.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -8,34 +10,40 @@ namespace nbvopt {
 using detail::BrickTable;
 
 VoxelGrid::VoxelGrid(const Lattice& lattice, std::unique_ptr<BrickTable> table,
-                     std::uint64_t version, bool carries_uncertainty)
-    : lattice_(lattice),
-      table_(std::move(table)),
-      version_(version),
-      carries_uncertainty_(carries_uncertainty) {}
+                     std::uint64_t version)
+    : lattice_(lattice), table_(std::move(table)), version_(version) {}
 
 VoxelGrid::~VoxelGrid() = default;
 
-std::shared_ptr<const VoxelGrid> VoxelGrid::lazy(const UncertaintyMap& map) {
-  return std::shared_ptr<const VoxelGrid>(new VoxelGrid(
-      map.lattice(), std::make_unique<BrickTable>(map.tree()), 1, map.carries_uncertainty()));
+std::shared_ptr<VoxelGrid> VoxelGrid::of(const UncertaintyMap& map) {
+  std::shared_ptr<VoxelGrid> grid(
+      new VoxelGrid(map.lattice(), std::make_unique<BrickTable>(map.tree()), 1));
+  grid->carries_uncertainty_ = map.carries_uncertainty();
+  grid->has_occupied_ = map.has_occupied();
+  return grid;
 }
 
+std::shared_ptr<const VoxelGrid> VoxelGrid::lazy(const UncertaintyMap& map) { return of(map); }
+
 std::shared_ptr<const VoxelGrid> VoxelGrid::whole(const UncertaintyMap& map) {
-  auto table = std::make_unique<BrickTable>(map.tree());
-  table->read_all();
-  return std::shared_ptr<const VoxelGrid>(
-      new VoxelGrid(map.lattice(), std::move(table), 1, map.carries_uncertainty()));
+  const std::shared_ptr<VoxelGrid> grid = of(map);
+  grid->table_->read_all();
+  return grid;
 }
 
 std::shared_ptr<const VoxelGrid> VoxelGrid::updated(std::span<const VoxelChange> changes) const {
   if (!table_->is_whole()) {
     throw UsageError("only a whole voxel grid can follow a growing map: make it by whole()");
   }
-  bool carries_uncertainty = carries_uncertainty_;
-  for (const VoxelChange& c : changes) carries_uncertainty |= c.uncertainty != kUnknownUncertainty;
-  return std::shared_ptr<const VoxelGrid>(new VoxelGrid(
-      lattice_, std::make_unique<BrickTable>(*table_, changes), version_ + 1, carries_uncertainty));
+  std::shared_ptr<VoxelGrid> grid(
+      new VoxelGrid(lattice_, std::make_unique<BrickTable>(*table_, changes), version_ + 1));
+  grid->carries_uncertainty_ = carries_uncertainty_;
+  grid->has_occupied_ = has_occupied_;
+  for (const VoxelChange& change : changes) {
+    grid->carries_uncertainty_ |= change.uncertainty != kUnknownUncertainty;
+    grid->has_occupied_ |= change.state == VoxelState::occupied;
+  }
+  return grid;
 }
 
 void VoxelGrid::make_ready(const KeyBox& box) const { table_->make_ready(detail::bricks_of(box)); }
@@ -69,6 +77,14 @@ bool VoxelGrid::any_occupied(const KeyBox& box) const {
         found |= (states.occupied[y | z << detail::kBrickBits] & bits) != 0;
       }
     }
+  });
+  return found;
+}
+
+bool VoxelGrid::any_known(const KeyBox& box) const {
+  bool found = false;
+  detail::bricks_of(box).for_each([&](detail::BrickKey brick) {
+    found = found || !table_->ready_brick(brick)->states->is_all_unknown();
   });
   return found;
 }

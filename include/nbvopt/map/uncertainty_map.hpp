@@ -15,8 +15,8 @@ class UncertaintyOcTree;  // src/map/uncertainty_octree.hpp: OctoMap stays out o
 /// What is known of one voxel.
 struct VoxelRecord {
   VoxelState state = VoxelState::unknown;
-  float log_odds = 0.0F;                          ///< of being occupied; 0 when unknown
-  float uncertainty = kUnknownUncertainty;        ///< Eq. 9, in [0, 1]; 1 unless occupied
+  float log_odds = 0.0F;                    ///< of being occupied; 0 when unknown
+  float uncertainty = kUnknownUncertainty;  ///< Eq. 9, in [0, 1]; 1 unless occupied
   std::array<std::uint8_t, 3> colour{255, 255, 255};
 };
 
@@ -27,7 +27,7 @@ struct MapCounts {
   std::uint64_t certain_voxels = 0;  ///< occupied with u < 1: the "voxels" of the paper's Table 1
   double information = 0.0;          ///< Eq. 11, sum of 1 - u over occupied voxels
   std::uint64_t leaves = 0;
-  std::uint64_t nodes = 0;           ///< leaves and inner nodes
+  std::uint64_t nodes = 0;  ///< leaves and inner nodes
 };
 
 /// An octree over OctoMap's lattice. Its invariants: a leaf is pruned only where occupancy, colour
@@ -61,6 +61,9 @@ class UncertaintyMap {
 
   /// Whether any occupied voxel carries u < 1. Plain OctoMaps carry none.
   bool carries_uncertainty() const;
+
+  /// Whether any voxel is occupied; takes no time.
+  bool has_occupied() const;
 
   const UncertaintyOcTree& tree() const { return *tree_; }
   UncertaintyOcTree& tree() { return *tree_; }

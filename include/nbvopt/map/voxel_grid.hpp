@@ -40,6 +40,9 @@ class VoxelGrid {
   /// SensorOptions::occupied_uncertainty gives.
   bool carries_uncertainty() const { return carries_uncertainty_; }
 
+  /// Whether the map had any occupied voxel, or a scan has made one since.
+  bool has_occupied() const { return has_occupied_; }
+
   /// Makes every brick that touches the box ready. Thread-safe; cheap when they are. Rays may be
   /// cast, and voxels looked up, only inside boxes that were made ready.
   void make_ready(const KeyBox& box) const;
@@ -52,6 +55,9 @@ class VoxelGrid {
   /// Whether the box holds an occupied voxel.
   bool any_occupied(const KeyBox& box) const;
 
+  /// Whether anything is known in a brick that touches the box.
+  bool any_known(const KeyBox& box) const;
+
   /// What the bricks take, bytes; bricks shared with other versions included.
   std::size_t memory_bytes() const;
 
@@ -61,13 +67,16 @@ class VoxelGrid {
   ~VoxelGrid();
 
  private:
+  static std::shared_ptr<VoxelGrid> of(const UncertaintyMap& map);
+
   VoxelGrid(const Lattice& lattice, std::unique_ptr<detail::BrickTable> table,
-            std::uint64_t version, bool carries_uncertainty);
+            std::uint64_t version);
 
   Lattice lattice_;
   std::unique_ptr<detail::BrickTable> table_;
   std::uint64_t version_;
-  bool carries_uncertainty_;
+  bool carries_uncertainty_ = false;
+  bool has_occupied_ = false;
 };
 
 }  // namespace nbvopt

@@ -15,6 +15,8 @@
 
 namespace nbvopt {
 
+class ViewObjective;
+
 /// The base's velocity in its own frame. Only zero is supported by now.
 struct BaseTwist {
   double vx_m_s = 0.0;
@@ -26,9 +28,9 @@ struct BaseTwist {
 struct PlanRequest {
   Transform T_map_base = Transform::Identity();
   BaseTwist base_twist;
-  JointPosition joints;       ///< where the joints are now
-  double motion_time_s = 0.0; ///< the joints' travel time, t of Algorithm 2; 0: no limit
-  double min_gain = 1.0;      ///< below it the planner says that there is nothing to gain
+  JointPosition joints;        ///< where the joints are now
+  double motion_time_s = 0.0;  ///< the joints' travel time, t of Algorithm 2; 0: no limit
+  double min_gain = 1.0;       ///< below it the planner says that there is nothing to gain
   StopRule stop;
   std::uint64_t seed = 1;
 };
@@ -76,14 +78,20 @@ class Planner {
   /// joint that is not finite, a joint beyond its limits, a negative motion time.
   PlanResult plan(const PlanRequest& request, const Solver& solver) const;
 
-  /// The box of Algorithm 2 around the joints, its height cut at the first occupied voxel above
-  /// and below the optical centre.
+  /// The box of Algorithm 2 around joints within their limits, its height cut at the first
+  /// occupied voxel above and below the optical centre. The voxels in reach must be ready.
   JointBox search_box(const PlanRequest& request, const JointPosition& joints) const;
 
-  /// Every voxel that a view from inside the search box can touch.
-  KeyBox reachable_voxels(const PlanRequest& request) const;
+  /// Every voxel that a view from inside the reachable box can touch.
+  KeyBox reachable_voxels(const PlanRequest& request, const JointPosition& joints) const;
 
  private:
+  /// Fills the answer from what the solver found.
+  void choose(const PlanRequest& request, const JointPosition& joints,
+              const ViewObjective& objective, const SolveResult& solved, PlanResult& result) const;
+  void warn_of_map(const PlanRequest& request, const JointPosition& joints,
+                   std::vector<std::string>& warnings) const;
+
   Mast mast_;
   SensorOptions sensor_;
   std::shared_ptr<const VoxelGrid> grid_;

@@ -1,0 +1,221 @@
+#include "nbvopt/planner/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+#include "planner/view_objective.hpp"
+
+namespace nbvopt {
+namespace {
+
+void check(const PlanRequest& request) {
+  if (!request.T_map_base.matrix().allFinite()) {
+    throw InputError("base: every number of its pose must be finite");
+  }
+  if (!std::isfinite(request.motion_time_s) || request.motion_time_s < 0.0) {
+    throw InputError("motion_time_s is " + format_number(request.motion_time_s) +
+                     " s, it must be 0 (no limit) or more");
+  }
+  const BaseTwist& twist = request.base_twist;
+  if (twist.vx_m_s != 0.0 || twist.vy_m_s != 0.0 || twist.wz_rad_s != 0.0) {
+    throw InputError("base_twist: only a base at rest is supported, give zeros");
+  }
+}
+
+PlanStatus plan_status(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::converged:
+      return PlanStatus::optimal_within_tolerance;
+    case SolveStatus::grid_complete:
+      return PlanStatus::grid_complete;
+    case SolveStatus::evaluation_limit:
+    case SolveStatus::stalled:  // gave up: more evaluations would have brought nothing
+      return PlanStatus::evaluation_limit;
+    case SolveStatus::time_limit:
+      return PlanStatus::time_limit;
+    case SolveStatus::cancelled:
+      return PlanStatus::cancelled;
+    case SolveStatus::not_run:
+      break;
+  }
+  return PlanStatus::not_run;
+}
+
+bool is_complete(PlanStatus status) {
+  return status == PlanStatus::optimal_within_tolerance || status == PlanStatus::grid_complete;
+}
+
+/// The faces of the box that a point lies on; a frozen joint has none to speak of.
+std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3d& q) {
+  std::vector<std::string> names;
+  for (const Joint joint : kJoints) {
+    const auto i = static_cast<Eigen::Index>(joint);
+    if (box.min[i] == box.max[i]) continue;
+    if (q[i] == box.min[i]) names.push_back(to_string(joint) + "_min");
+    if (q[i] == box.max[i]) names.push_back(to_string(joint) + "_max");
+  }
+  return names;
+}
+
+std::string why_no_gain(const VoxelGrid& grid, const PlanResult& result) {
+  const VoxelKey camera = grid.lattice().key(result.T_map_sensor.translation());
+  if (grid.state(camera) == VoxelState::occupied) return "the sensor is inside an obstacle";
+  const ViewGain& view = result.view;
+  if (view.unknown_rays + view.occupied_rays == 0) {
+    return "in the best view all rays end in free space or are blocked nearby";
+  }
+  return "all that can be seen from the reachable views is known well enough";
+}
+
+std::string explain(const PlanResult& result) {
+  const double more = result.view.gain - result.current.gain;
+  const std::string gains = "gain " + format_number(std::round(result.view.gain * 10) / 10);
+  if (more <= 0.0) return "stay: no evaluated view is better, " + gains;
+  return "move: " + gains + ", " + format_number(std::round(more * 10) / 10) + " more than staying";
+}
+
+}  // namespace
+
+std::string to_string(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::not_run:
+      return "not_run";
+    case PlanStatus::optimal_within_tolerance:
+      return "optimal_within_tolerance";
+    case PlanStatus::grid_complete:
+      return "grid_complete";
+    case PlanStatus::evaluation_limit:
+      return "evaluation_limit";
+    case PlanStatus::time_limit:
+      return "time_limit";
+    case PlanStatus::no_gain_in_reach:
+      return "no_gain_in_reach";
+    case PlanStatus::cancelled:
+      return "cancelled";
+  }
+  return "?";
+}
+
+Transform T_map_sensor(const PlanRequest& request, const Mast& mast, const JointPosition& joints) {
+  return request.T_map_base * mast.T_base_sensor(joints);
+}
+
+Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
+                 std::shared_ptr<const ViewEvaluator> evaluator)
+    : mast_(robot.mast),
+      sensor_(robot.sensor),
+      grid_(std::move(grid)),
+      evaluator_(std::move(evaluator)) {}
+
+PlanResult Planner::plan(const PlanRequest& request, const Solver& solver) const {
+  const auto begin = StopRule::Clock::now();
+  check(request);
+  PlanResult result;
+  const JointPosition joints = mast_.clamped(request.joints, result.warnings);
+  grid_->make_ready(reachable_voxels(request, joints));
+  warn_of_map(request, joints, result.warnings);
+  result.box = search_box(request, joints);
+
+  const ViewObjective objective(request, mast_, joints, result.box, *evaluator_);
+  const SolveResult solved = solver.solve(objective, {joints.vector(), request.stop, request.seed});
+  result.current = objective.view(joints.vector());
+  choose(request, joints, objective, solved, result);
+
+  result.evaluations = objective.evaluations();
+  result.solver = solver.name();
+  result.seed = request.seed;
+  result.map_version = grid_->version();
+  result.search_time_ms =
+      std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
+  return result;
+}
+
+void Planner::choose(const PlanRequest& request, const JointPosition& joints,
+                     const ViewObjective& objective, const SolveResult& solved,
+                     PlanResult& result) const {
+  const auto take = [&](const JointPosition& q) {
+    result.joints = q;
+    result.view = objective.view(q.vector());
+    result.T_map_sensor = T_map_sensor(request, mast_, q);
+    result.move_time_s = mast_.move_time_s(joints, q);
+    result.active_bounds = active_bounds(result.box, q.vector());
+  };
+  take(JointPosition::from(solved.best));
+  result.status = plan_status(solved.status);
+  if (is_complete(result.status) && result.view.gain < request.min_gain) {
+    result.status = PlanStatus::no_gain_in_reach;
+    result.message = "stay: " + why_no_gain(*grid_, result);
+    take(joints);
+  } else {
+    result.message = explain(result);
+  }
+}
+
+void Planner::warn_of_map(const PlanRequest& request, const JointPosition& joints,
+                          std::vector<std::string>& warnings) const {
+  if (!grid_->has_occupied()) warnings.push_back("the map has no occupied voxel");
+  const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
+  if (!grid_->any_known(reachable_voxels(request, joints))) {
+    warnings.push_back("nothing in reach of the camera is mapped: the base is outside the map");
+  } else if (grid_->state(grid_->lattice().key(camera_m)) == VoxelState::unknown) {
+    warnings.push_back("the camera stands in unmapped space: is the base where you think it is?");
+  }
+  if (grid_->has_occupied() && !grid_->carries_uncertainty()) {
+    warnings.push_back("the map carries no uncertainty: every occupied voxel counts with u = " +
+                       format_number(sensor_.occupied_uncertainty));
+  }
+}
+
+JointBox Planner::search_box(const PlanRequest& request, const JointPosition& joints) const {
+  JointBox box = mast_.reachable_box(joints, request.motion_time_s);
+  const auto column_is_occupied = [&](double height_m) {
+    JointPosition q = joints;
+    q.height_m = height_m;
+    const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, q).translation();
+    return grid_->state(grid_->lattice().key(camera_m)) == VoxelState::occupied;
+  };
+  // Half voxels up and down the mast, as far as the optical centre moves through no obstacle. One
+  // that starts inside an obstacle may leave it.
+  const double step_m = 0.5 * grid_->lattice().resolution_m();
+  const auto reach = [&](double limit_m, double direction) {
+    bool inside = column_is_occupied(joints.height_m);
+    double free_m = joints.height_m;
+    for (int i = 1; direction * (limit_m - free_m) > 0.0; ++i) {
+      const double next_m = joints.height_m + direction * i * step_m;
+      const double height_m = direction * (limit_m - next_m) > 0.0 ? next_m : limit_m;
+      if (column_is_occupied(height_m)) {
+        if (!inside) return free_m;
+      } else {
+        inside = false;
+      }
+      free_m = height_m;
+    }
+    return limit_m;
+  };
+  box.max[2] = reach(box.max[2], 1.0);
+  box.min[2] = reach(box.min[2], -1.0);
+  return box;
+}
+
+KeyBox Planner::reachable_voxels(const PlanRequest& request, const JointPosition& joints) const {
+  const JointBox box = mast_.reachable_box(joints, request.motion_time_s);
+  const double lever_m = mast_.options().sensor_offset_m.norm();
+  // Along the optical axis, the corner of the image is farther away than the range.
+  const double tan_h = std::tan(sensor_.half_fov_horizontal_rad);
+  const double tan_v = std::tan(sensor_.half_fov_vertical_rad);
+  const double stretch = sensor_.range_axis == RangeAxis::z_depth
+                             ? std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v)
+                             : 1.0;
+  const double radius_m = lever_m + stretch * sensor_.range_max_m + grid_->lattice().resolution_m();
+  const auto mast_top = [&](double height_m) {
+    return Eigen::Vector3d(request.T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
+  };
+  const Eigen::Vector3d low = mast_top(box.min[2]).cwiseMin(mast_top(box.max[2]));
+  const Eigen::Vector3d high = mast_top(box.min[2]).cwiseMax(mast_top(box.max[2]));
+  return {grid_->lattice().key(low - Eigen::Vector3d::Constant(radius_m)),
+          grid_->lattice().key(high + Eigen::Vector3d::Constant(radius_m))};
+}
+
+}  // namespace nbvopt
