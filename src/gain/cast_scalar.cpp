@@ -29,9 +29,7 @@ class ScalarRay {
   }
 
   std::uint8_t code() const {
-    const VoxelKey k = key();
-    const BrickKey brick = brick_of(k);
-    return walk_.bricks.code[walk_.bricks.place_of(brick)][code_index(k)];
+    return walk_.bricks.code[walk_.bricks.place_of(brick_at(lattice_key()))][code_index(key())];
   }
 
   /// Where the ray leaves the cube of this radius around its voxel; remembers the axis.
@@ -62,11 +60,9 @@ class ScalarRay {
   }
 
   VoxelKey key() const {
-    std::array<std::uint16_t, 3> k{};
-    for (int a = 0; a < 3; ++a) {
-      k[a] = static_cast<std::uint16_t>((voxel_[a] ^ mirror_[a]) + walk_.origin_key[a]);
-    }
-    return {k[0], k[1], k[2]};
+    const Eigen::Vector3i k = lattice_key();
+    return {static_cast<std::uint16_t>(k.x()), static_cast<std::uint16_t>(k.y()),
+            static_cast<std::uint16_t>(k.z())};
   }
 
   Face face() const {
@@ -94,6 +90,13 @@ class ScalarRay {
   }
 
  private:
+  /// The voxel's key, which may lie off the lattice.
+  Eigen::Vector3i lattice_key() const {
+    return {(voxel_[0] ^ mirror_[0]) + walk_.origin_key[0],
+            (voxel_[1] ^ mirror_[1]) + walk_.origin_key[1],
+            (voxel_[2] ^ mirror_[2]) + walk_.origin_key[2]};
+  }
+
   const RayWalk& walk_;
   std::array<double, 3> origin_{};
   std::array<double, 3> direction_{};

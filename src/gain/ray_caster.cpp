@@ -11,14 +11,9 @@
 namespace nbvopt {
 namespace {
 
+using detail::brick_at;
 using detail::BrickBox;
 using detail::BrickKey;
-
-/// The brick that holds a voxel; keys may lie off the lattice, where nothing is known.
-BrickKey brick_at(const Eigen::Vector3i& key) {
-  return {key.x() >> detail::kBrickBits, key.y() >> detail::kBrickBits,
-          key.z() >> detail::kBrickBits};
-}
 
 /// The keys of a box around the origin, one voxel wider for rounding.
 std::pair<Eigen::Vector3i, Eigen::Vector3i> keys_of(const Eigen::Vector3d& origin_lattice,

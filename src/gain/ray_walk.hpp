@@ -10,6 +10,11 @@
 
 namespace nbvopt::detail {
 
+/// The brick that holds a voxel; keys may lie off the lattice, where nothing is known.
+inline BrickKey brick_at(const Eigen::Vector3i& key) {
+  return {key.x() >> kBrickBits, key.y() >> kBrickBits, key.z() >> kBrickBits};
+}
+
 /// The bricks that a bundle can touch, x running fastest.
 struct LocalBricks {
   BrickKey min;  ///< the first brick
