@@ -16,8 +16,8 @@ nbvopt::Scan read(std::istream& in) {
     case 'p':
       return nbvopt::read_ply(in, "fuzz");
     case 0x89:
-      return nbvopt::read_depth_png(
-          in, "fuzz", {.fx_px = 100.0, .fy_px = 100.0, .cx_px = 4.0, .cy_px = 3.0});
+      return nbvopt::read_depth_png(in, "fuzz",
+                                    {.fx_px = 100.0, .fy_px = 100.0, .cx_px = 4.0, .cy_px = 3.0});
     default:
       return nbvopt::read_pcd(in, "fuzz");
   }
