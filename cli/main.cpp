@@ -6,15 +6,15 @@
 #include "cli/evaluate.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/map.hpp"
-#include "cli/map.hpp"
 #include "cli/output.hpp"
+#include "cli/query.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_evaluate, set_up_map};
+constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

@@ -108,6 +108,8 @@ void run_query(const QueryOptions& options) {
   answer.counting = robot.sensor.counting;
   answer.map_load_ms = loading.elapsed_ms();
   answer.request = request_of(options, robot);  // its time limit counts from here
+  std::vector<std::string> warnings;
+  answer.request.joints = Mast(robot.mast).clamped(answer.request.joints, warnings);
 
   const Stopwatch filling;
   const auto grid = VoxelGrid::lazy(map);
@@ -117,6 +119,7 @@ void run_query(const QueryOptions& options) {
   grid->make_ready(planner.reachable_voxels(answer.request, answer.request.joints));
   answer.grid_ms = filling.elapsed_ms();
   answer.result = planner.plan(answer.request, *solver);
+  answer.result.warnings.insert(answer.result.warnings.begin(), warnings.begin(), warnings.end());
 
   if (!options.json_file.empty()) {
     write_file_atomically(options.json_file, to_text(to_json(answer)));

@@ -26,7 +26,7 @@ TEST(Main, EverySubcommandExplainsItself) {
   for (const char* subcommand : {"query", "evaluate", "map"}) {
     const ProcessResult result = nbvopt_run({subcommand, "--help"});
     EXPECT_EQ(result.exit_code, 0) << subcommand;
-    EXPECT_THAT(result.out, HasSubstr("MAP")) << subcommand;
+    EXPECT_THAT(result.out, HasSubstr(std::string("Usage: nbvopt ") + subcommand));
   }
 }
 

@@ -141,10 +141,9 @@ TEST_F(CommandLine, QueryDrawsAPicture) {
 TEST_F(CommandLine, QueryRefusesOutputFilesBeforeTheSearch) {
   // The map is missing, too: that the output is named shows that it was looked at first.
   for (const char* option : {"--json-out", "--plot"}) {
-    expect_refusal(nbvopt_run(query("none.ot", {option, folder / "none" / "x.png"})), 3, "none");
+    expect_refusal(nbvopt_run(query("none.ot", {option, folder / "none/x.png"})), 3, "none");
     expect_refusal(nbvopt_run(query("none.ot", {option, "/proc/x.png"})), 3, "/proc/x.png");
-    expect_refusal(nbvopt_run(query("none.ot", {option, folder.path().string()})), 3,
-                   "is a folder");
+    expect_refusal(nbvopt_run(query("none.ot", {option, folder.path()})), 3, "is a folder");
   }
 }
 
@@ -221,6 +220,11 @@ struct Refusal {
   const char* named;
 };
 
+/// Names the case in the test's name.
+void PrintTo(const Refusal& refusal, std::ostream* out) {
+  for (const std::string& argument : refusal.arguments) *out << argument << ' ';
+}
+
 class QueryRefuses : public CommandLine, public ::testing::WithParamInterface<Refusal> {};
 
 TEST_P(QueryRefuses, InOneLine) {
@@ -253,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{
                           {"--max-evals", "1.5"}, 2, "--max-evals: '1.5' is not a whole number"},
                       Refusal{{"--pan", "0", "--pan", "1"}, 2, "--pan"},
-                      Refusal{{"--solver", "magic"}, 2, "--solver"},
+                      Refusal{{"--solver", "magic"}, 2, "solver \"magic\""},
                       Refusal{{"--evaluator", "magic"}, 2, "--evaluator"},
                       Refusal{{"--step-pan", "-1"}, 2, "-1"},
                       Refusal{{"another.ot"}, 2, "another.ot"}));
@@ -283,6 +287,8 @@ struct BadMap {
   const char* content;  ///< null: missing
   const char* named;
 };
+
+void PrintTo(const BadMap& map, std::ostream* out) { *out << map.name; }
 
 class QueryRefusesMap : public CommandLine, public ::testing::WithParamInterface<BadMap> {};
 
