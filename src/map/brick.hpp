@@ -65,7 +65,8 @@ struct BrickStates {
     return uncertainty[occupied_before_row[row] + std::popcount(before)];
   }
 
-  /// Completes the fields that follow from `occupied`, `free` and one u a voxel, in index order.
+  /// Completes the fields that follow from `occupied`, `free` and one u a voxel, in index order;
+  /// null where none differs from 1.
   void finish(const float* uncertainty_of_voxels);
 };
 

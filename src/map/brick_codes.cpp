@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include <cstring>
+#include <utility>
 
 #include "map/brick.hpp"
 
@@ -65,58 +66,93 @@ void erode(const BitWindow& in, std::size_t by, std::size_t radius, BitWindow& a
            BitWindow& along_y, BitWindow& out) {
   const hn::ScalableTag<std::uint64_t> d;
   const int shift = static_cast<int>(by);
-  for (std::size_t i = 0; i < in.size(); i += hn::Lanes(d)) {
+  // Rows that are valid in `in`.
+  const std::size_t begin = (radius - by) * kWindow;
+  const std::size_t end = in.size() - begin;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
     const auto row = hn::LoadU(d, &in[i]);
     hn::StoreU(hn::And(row, hn::And(hn::ShiftLeftSame(row, shift), hn::ShiftRightSame(row, shift))),
                d, &along_x[i]);
   }
-  and_three(along_x, by, in.size() - by, by, along_y);
+  and_three(along_x, begin + by, end - by, by, along_y);
   and_three(along_y, radius * kWindow, in.size() - radius * kWindow, by * kWindow, out);
 }
 
-/// One byte a voxel from five bit planes.
-void expand(const std::array<BitWindow, 1 + kErosions.size()>& sets, std::uint8_t* code) {
-  const hn::CappedTag<std::uint8_t, kBrickSize> d;
-  const std::size_t lanes = hn::Lanes(d);
-  constexpr int kPlanes = 5;
+/// Bits of a code: five for a free voxel's leap, then occupied, then not free.
+constexpr int kLeapBits = 5;
+constexpr int kCodeBits = 8;
+
+/// The bits in which the code of a voxel in set i differs from that of one in set i - 1 only.
+constexpr int toggled_bits(std::size_t set) {
+  if (set == 0) return 1;
+  const std::size_t before = set == 1 ? 0 : kErosions[set - 2].radius;
+  return static_cast<int>((1 + kErosions[set - 1].radius) ^ (1 + before));
+}
+
+/// One bit plane of the codes, a word a row of the brick.
+using BitPlane = std::array<std::uint64_t, kBrickRows>;
+
+/// The sets are nested, so bit b of a free voxel's code is the parity of those sets that hold the
+/// voxel and toggle bit b.
+template <std::size_t... kSet>
+HWY_INLINE void leap_planes(const std::array<BitWindow, 1 + kErosions.size()>& sets,
+                            std::array<BitPlane, kLeapBits>& planes, std::index_sequence<kSet...>) {
+  const hn::CappedTag<std::uint64_t, 8> d;
   for (int z = 0; z < kBrickSize; ++z) {
-    for (int y = 0; y < kBrickSize; ++y) {
+    for (int y = 0; y < kBrickSize; y += static_cast<int>(hn::Lanes(d))) {
       const std::size_t row = static_cast<std::size_t>((z + kCodeReach) * kWindow + y + kCodeReach);
-      // The sets are nested, so bit b of a voxel's code is the parity of the sets that hold it
-      // and whose code differs in bit b from the one before.
-      std::array<std::uint32_t, kPlanes> plane{};
-      int previous = 0;
-      for (std::size_t i = 0; i < sets.size(); ++i) {
-        const auto bits = static_cast<std::uint32_t>(sets[i][row] >> kCodeReach);
-        const int value = 1 + (i == 0 ? 0 : static_cast<int>(kErosions[i - 1].radius));
-        for (int b = 0; b < kPlanes; ++b) {
-          if (((value ^ previous) >> b & 1) != 0) plane[b] ^= bits;
-        }
-        previous = value;
-      }
-      for (std::size_t x = 0; x < kBrickSize; x += lanes) {
-        auto value = hn::Zero(d);
-        for (int b = 0; b < kPlanes; ++b) {
-          // LoadMaskBits reads eight bytes.
-          alignas(8) const std::uint64_t bits = plane[b] >> x;
-          const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits));
-          value = hn::Or(value, hn::IfThenElseZero(mask, hn::Set(d, std::uint8_t(1U << b))));
-        }
-        hn::StoreU(value, d, code + (z * kBrickSize + y) * kBrickSize + x);
+      for (int b = 0; b < kLeapBits; ++b) {
+        auto plane = hn::Zero(d);
+        const auto toggle = [&](std::size_t set, int bits) HWY_ATTR {
+          if ((bits >> b & 1) != 0) plane = hn::Xor(plane, hn::LoadU(d, &sets[set][row]));
+        };
+        (toggle(kSet, toggled_bits(kSet)), ...);
+        hn::StoreU(hn::ShiftRight<kCodeReach>(plane), d, &planes[b][z * kBrickSize + y]);
       }
     }
   }
 }
 
-void compute_free_codes(const BitWindow& free, std::uint8_t* code) {
-  std::array<BitWindow, 1 + kErosions.size()> sets{};
-  BitWindow along_x{}, along_y{};
+/// One byte a voxel, in the order of code_index().
+void expand(const std::array<BitPlane, kLeapBits>& leap, const BrickStates& states,
+            std::uint8_t* code) {
+  const hn::CappedTag<std::uint8_t, kBrickSize> d;
+  for (int row = 0; row < kBrickRows; ++row) {
+    std::array<std::uint64_t, kCodeBits> bits{};
+    for (int b = 0; b < kLeapBits; ++b) bits[b] = leap[b][row];
+    bits[6] = states.occupied[row];
+    bits[7] = ~states.free[row];
+    alignas(32) std::array<std::uint8_t, kBrickSize> codes;
+    for (std::size_t x = 0; x < kBrickSize; x += hn::Lanes(d)) {
+      auto value = hn::Zero(d);
+      for (const int b : {0, 1, 2, 3, 4, 6, 7}) {
+        const std::uint64_t word = bits[b] >> x;  // LoadMaskBits reads eight bytes
+        const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&word));
+        value = hn::Or(value, hn::IfThenElseZero(mask, hn::Set(d, std::uint8_t(1U << b))));
+      }
+      hn::StoreU(value, d, &codes[x]);
+    }
+    for (int x = 0; x < kBrickSize; x += 4) {  // four voxels along x stay together
+      const VoxelKey key{static_cast<std::uint16_t>(x),
+                         static_cast<std::uint16_t>(row & kBrickMask),
+                         static_cast<std::uint16_t>(row >> kBrickBits)};
+      std::memcpy(code + code_index(key), &codes[x], 4);
+    }
+  }
+}
+
+void compute_window_codes(const BitWindow& free, const BrickStates& states, std::uint8_t* code) {
+  // Kept a thread: what is written anew needs no clearing.
+  thread_local std::array<BitWindow, 1 + kErosions.size()> sets;
+  thread_local BitWindow along_x, along_y;
   sets[0] = free;
   for (std::size_t i = 0; i < kErosions.size(); ++i) {
     const Erosion& e = kErosions[i];
     erode(sets[e.from], e.by, e.radius, along_x, along_y, sets[i + 1]);
   }
-  expand(sets, code);
+  std::array<BitPlane, kLeapBits> leap;
+  leap_planes(sets, leap, std::make_index_sequence<1 + kErosions.size()>());
+  expand(leap, states, code);
 }
 
 }  // namespace nbvopt::detail::HWY_NAMESPACE
@@ -125,7 +161,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nbvopt::detail {
 
-HWY_EXPORT(compute_free_codes);
+HWY_EXPORT(compute_window_codes);
 
 namespace {
 
@@ -149,25 +185,7 @@ BitWindow free_window(const BrickNeighbourhood& neighbourhood) {
 }  // namespace
 
 void compute_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code) {
-  const BrickStates& own = *neighbourhood[13];
-  alignas(64) std::array<std::uint8_t, kBrickVoxels> by_row;
-  HWY_DYNAMIC_DISPATCH(compute_free_codes)(free_window(neighbourhood), by_row.data());
-  for (int row = 0; row < kBrickRows; ++row) {
-    std::uint8_t* const row_code = &by_row[row * kBrickSize];
-    for (std::uint32_t left = ~own.free[row]; left != 0; left &= left - 1) {
-      const int x = std::countr_zero(left);
-      row_code[x] = (own.occupied[row] >> x & 1U) != 0 ? kOccupiedCode : kUnknownCode;
-    }
-  }
-  // Four voxels along x stay together.
-  for (int row = 0; row < kBrickRows; ++row) {
-    for (int x = 0; x < kBrickSize; x += 4) {
-      const VoxelKey key{static_cast<std::uint16_t>(x),
-                         static_cast<std::uint16_t>(row & kBrickMask),
-                         static_cast<std::uint16_t>(row >> kBrickBits)};
-      std::memcpy(code + code_index(key), &by_row[row * kBrickSize + x], 4);
-    }
-  }
+  HWY_DYNAMIC_DISPATCH(compute_window_codes)(free_window(neighbourhood), *neighbourhood[13], code);
 }
 
 }  // namespace nbvopt::detail

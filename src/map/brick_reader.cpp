@@ -9,32 +9,53 @@ namespace {
 
 constexpr int kBrickDepth = UncertaintyOcTree::kDepth - kBrickBits;
 
-/// The states of a brick while its leaves come in.
+/// The states of a brick while its leaves come in. Coordinates are voxels from the brick's first.
 class BrickFiller {
  public:
-  /// A leaf spans the cube of `size` voxels, at most a brick, from `origin` on.
-  void fill(const UncertaintyOcTreeNode& leaf, bool occupied, VoxelKey origin, int size) {
-    auto& rows = occupied ? states_->occupied : states_->free;
-    const int x = origin.x & kBrickMask;
-    const auto bits = static_cast<std::uint32_t>(((std::uint64_t{1} << size) - 1) << x);
-    for (int dz = 0; dz < size; ++dz) {
-      for (int dy = 0; dy < size; ++dy) {
-        const int row = row_of(origin) + dy + dz * kBrickSize;
-        rows[row] |= bits;
-        if (!occupied || leaf.uncertainty() == kUnknownUncertainty) continue;
-        std::fill_n(&uncertainty_[row * kBrickSize + x], size, leaf.uncertainty());
-      }
+  explicit BrickFiller(const UncertaintyOcTree& tree) : tree_(tree) {}
+
+  /// The node spans the cube of `size` voxels, at most a brick, from (x, y, z) on.
+  void fill(const UncertaintyOcTreeNode& node, int x, int y, int z, int size) {
+    if (!tree_.nodeHasChildren(&node)) {
+      fill_leaf(node, x, y, z, size);
+      return;
+    }
+    const int half = size / 2;
+    for (int child = 0; child < 8; ++child) {
+      if (!tree_.nodeChildExists(&node, child)) continue;
+      fill(*tree_.getNodeChild(&node, child), x + (child & 1 ? half : 0),
+           y + (child & 2 ? half : 0), z + (child & 4 ? half : 0), half);
     }
   }
 
   std::shared_ptr<const BrickStates> finish() {
-    states_->finish(uncertainty_.data());
+    states_->finish(uncertainty_.empty() ? nullptr : uncertainty_.data());
     return std::move(states_);
   }
 
  private:
+  void fill_leaf(const UncertaintyOcTreeNode& leaf, int x, int y, int z, int size) {
+    const bool occupied = tree_.isNodeOccupied(leaf);
+    auto& rows = occupied ? states_->occupied : states_->free;
+    const auto bits = static_cast<std::uint32_t>(((std::uint64_t{1} << size) - 1) << x);
+    const int first_row = y | z << kBrickBits;
+    for (int dz = 0; dz < size; ++dz) {
+      for (int dy = 0; dy < size; ++dy) rows[first_row + dy + dz * kBrickSize] |= bits;
+    }
+    if (occupied && leaf.uncertainty() != kUnknownUncertainty) {
+      if (uncertainty_.empty()) uncertainty_.assign(kBrickVoxels, kUnknownUncertainty);
+      for (int dz = 0; dz < size; ++dz) {
+        for (int dy = 0; dy < size; ++dy) {
+          const int row = first_row + dy + dz * kBrickSize;
+          std::fill_n(&uncertainty_[row * kBrickSize + x], size, leaf.uncertainty());
+        }
+      }
+    }
+  }
+
+  const UncertaintyOcTree& tree_;
   std::shared_ptr<BrickStates> states_ = std::make_shared<BrickStates>();
-  std::vector<float> uncertainty_ = std::vector<float>(kBrickVoxels, kUnknownUncertainty);
+  std::vector<float> uncertainty_;  ///< one a voxel; empty while none differs from 1
 };
 
 /// `node` spans 2^levels blocks an axis from `block` on.
@@ -74,15 +95,8 @@ std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, Bri
     node = tree.nodeChildExists(node, child) ? tree.getNodeChild(node, child) : nullptr;
   }
   if (node == nullptr) return nullptr;
-  const VoxelKey origin{static_cast<std::uint16_t>(brick.x * kBrickSize),
-                        static_cast<std::uint16_t>(brick.y * kBrickSize),
-                        static_cast<std::uint16_t>(brick.z * kBrickSize)};
-  BrickFiller filler;
-  for_each_leaf(tree, *node, origin, kBrickDepth,
-                [&](const UncertaintyOcTreeNode& leaf, VoxelKey leaf_origin, int depth) {
-                  filler.fill(leaf, tree.isNodeOccupied(&leaf), leaf_origin,
-                              1 << (UncertaintyOcTree::kDepth - depth));
-                });
+  BrickFiller filler(tree);
+  filler.fill(*node, 0, 0, 0, kBrickSize);
   return filler.finish();
 }
 

@@ -1,5 +1,8 @@
 #include "map/brick_table.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -31,6 +34,15 @@ std::shared_ptr<const Brick> make_brick(std::shared_ptr<const BrickStates> state
   std::fill(brick->code.begin() + kBrickVoxels, brick->code.end(), kUnknownCode);
   brick->states = std::move(states);
   return brick;
+}
+
+/// Runs `run` on each item on all cores. Isolated: while it waits, the calling thread, which holds
+/// the table's lock, must not take up a task that wants the lock.
+template <typename Items, typename Run>
+void for_each_in_parallel(Items& items, const Run& run) {
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) { run(items[i]); });
+  });
 }
 
 /// The neighbourhood of a brick from a lookup of states.
@@ -96,42 +108,52 @@ void BrickTable::lay_out(const std::vector<BrickKey>& blocks) {
   blocks_.resize(static_cast<std::size_t>(size_.x) * size_.y * size_.z);
 }
 
-const BrickStates* BrickTable::states_of(BrickKey key) const {
+bool BrickTable::is_ready(BrickKey key) const {
   const Block* block = block_of(key);
-  if (block == nullptr) return unknown_->states.get();
-  if (const Brick* brick = block->ready[slot_of(key)].load(std::memory_order_relaxed)) {
-    return brick->states.get();
-  }
-  auto [entry, is_new] = states_.try_emplace(packed(key));
-  if (is_new) {
-    entry->second = read_brick(*tree_, key);
-    if (entry->second == nullptr) entry->second = unknown_->states;
-  }
-  return entry->second.get();
+  return block == nullptr || block->ready[slot_of(key)].load(std::memory_order_acquire) != nullptr;
 }
 
-void BrickTable::read(BrickKey key) const {
-  Block* const block = block_of(key);
-  if (block == nullptr || block->ready[slot_of(key)].load(std::memory_order_relaxed) != nullptr) {
-    return;
-  }
-  if (states_of(key)->is_all_unknown()) {
-    block->store(slot_of(key), unknown_brick());
-    return;
-  }
-  const BrickNeighbourhood neighbourhood =
-      neighbourhood_of(key, [this](BrickKey k) { return states_of(k); });
-  block->store(slot_of(key), make_brick(states_.at(packed(key)), neighbourhood));
-  states_.erase(packed(key));
+const std::shared_ptr<const BrickStates>& BrickTable::states_of(BrickKey key) const {
+  const Block* block = block_of(key);
+  if (block == nullptr) return unknown_brick()->states;
+  const Brick* brick = block->ready[slot_of(key)].load(std::memory_order_acquire);
+  return brick != nullptr ? brick->states : states_.at(packed(key));
 }
 
 void BrickTable::make_ready(const BrickBox& box) const {
   if (is_whole()) return;
-  bool all_ready = true;
-  box.for_each([&](BrickKey key) { all_ready = all_ready && ready_brick(key) != nullptr; });
-  if (all_ready) return;
+  const auto missing_in = [this](const BrickBox& in) {
+    std::vector<BrickKey> missing;
+    in.for_each([&](BrickKey key) {
+      if (!is_ready(key)) missing.push_back(key);
+    });
+    return missing;
+  };
+  if (missing_in(box).empty()) return;
   const std::scoped_lock lock(mutex_);
-  box.for_each([this](BrickKey key) { read(key); });
+  const std::vector<BrickKey> missing = missing_in(box);
+
+  // Codes need the neighbours' states too.
+  std::vector<std::pair<BrickKey, std::shared_ptr<const BrickStates>*>> to_read;
+  for (const BrickKey& key : missing_in({{box.min.x - 1, box.min.y - 1, box.min.z - 1},
+                                         {box.max.x + 1, box.max.y + 1, box.max.z + 1}})) {
+    const auto [entry, is_new] = states_.try_emplace(packed(key));
+    if (is_new) to_read.emplace_back(key, &entry->second);
+  }
+  for_each_in_parallel(to_read, [this](const auto& read) {
+    *read.second = read_brick(*tree_, read.first);
+    if (*read.second == nullptr) *read.second = unknown_brick()->states;
+  });
+  std::vector<std::pair<BrickKey, std::shared_ptr<const Brick>>> bricks;
+  for (const BrickKey& key : missing) bricks.emplace_back(key, nullptr);
+  for_each_in_parallel(bricks, [this](auto& brick) {
+    const auto raw_states_of = [this](BrickKey key) { return states_of(key).get(); };
+    brick.second = make_brick(states_of(brick.first), neighbourhood_of(brick.first, raw_states_of));
+  });
+  for (auto& [key, brick] : bricks) {
+    block_of(key)->store(slot_of(key), std::move(brick));
+    states_.erase(packed(key));
+  }
 }
 
 void BrickTable::read_all() {

@@ -100,9 +100,10 @@ class BrickTable {
   /// Lays out blocks_ over the given blocks.
   void lay_out(const std::vector<BrickKey>& blocks);
 
-  // Under mutex_, while bricks are read from the tree.
-  void read(BrickKey key) const;
-  const BrickStates* states_of(BrickKey key) const;
+  bool is_ready(BrickKey key) const;
+
+  /// The states of a brick that is ready or has been read.
+  const std::shared_ptr<const BrickStates>& states_of(BrickKey key) const;
 
   const UncertaintyOcTree* tree_ = nullptr;  ///< null once everything is read
   const Brick* unknown_;

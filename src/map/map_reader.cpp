@@ -135,7 +135,9 @@ class TreeReader {
     node.updateOccupancyChildren();
   }
 
-  /// The node's values, a mask of its children, then the children.
+  /// The node's values, a mask of its children, then the children. Of an inner node, colour and u
+  /// are kept as the file has them, so that a file stays the same when it is written again; its
+  /// occupancy is restored, since searches rely on it.
   template <Payload kPayload>
   void read_full_node(Node& node, int depth) {
     constexpr std::size_t kColourAt = sizeof(float);
@@ -158,6 +160,7 @@ class TreeReader {
     for (int i = 0; i < 8; ++i) {
       if (mask >> i & 1) read_full_node<kPayload>(make_child(node, i, depth), depth + 1);
     }
+    if (mask != 0) node.setLogOdds(node.getMaxChildLogOdds());
   }
 
   std::unique_ptr<UncertaintyOcTree> finished() {
@@ -174,13 +177,15 @@ class TreeReader {
   std::unique_ptr<UncertaintyOcTree> tree_;
 };
 
-std::unique_ptr<UncertaintyOcTree> read_tree(ByteReader& in, const std::string& name) {
-  const Header header = read_header(in, name);
+constexpr const char* kUncertaintyType = "UncertaintyOcTree";
+
+std::unique_ptr<UncertaintyOcTree> read_tree(ByteReader& in, const std::string& name,
+                                             const Header& header) {
   TreeReader reader(in, name, header);
   if (header.is_binary) return reader.read_binary();
   if (header.tree_type == "OcTree") return reader.read_full<Payload{false, false}>();
   if (header.tree_type == "ColorOcTree") return reader.read_full<Payload{true, false}>();
-  if (header.tree_type == "UncertaintyOcTree") return reader.read_full<Payload{true, true}>();
+  if (header.tree_type == kUncertaintyType) return reader.read_full<Payload{true, true}>();
   refuse(name, "unknown tree type '" + header.tree_type +
                    "', known are OcTree, ColorOcTree and UncertaintyOcTree");
 }
@@ -189,7 +194,9 @@ std::unique_ptr<UncertaintyOcTree> read_tree(ByteReader& in, const std::string& 
 
 UncertaintyMap read_map(std::istream& in, const std::string& name) {
   ByteReader reader(in);
-  return UncertaintyMap(read_tree(reader, name));
+  const Header header = read_header(reader, name);
+  const bool is_plain = header.is_binary || header.tree_type != kUncertaintyType;
+  return UncertaintyMap(read_tree(reader, name, header), is_plain);
 }
 
 UncertaintyMap read_map(const std::filesystem::path& path) {

@@ -86,8 +86,8 @@ bool any_certain_leaf(const UncertaintyOcTree& tree, const Node& node) {
 UncertaintyMap::UncertaintyMap(double resolution_m)
     : UncertaintyMap(std::make_unique<UncertaintyOcTree>(checked_resolution(resolution_m))) {}
 
-UncertaintyMap::UncertaintyMap(std::unique_ptr<UncertaintyOcTree> tree)
-    : tree_(std::move(tree)), lattice_(tree_->getResolution()) {}
+UncertaintyMap::UncertaintyMap(std::unique_ptr<UncertaintyOcTree> tree, bool is_plain)
+    : tree_(std::move(tree)), lattice_(tree_->getResolution()), is_plain_(is_plain) {}
 
 UncertaintyMap::UncertaintyMap(UncertaintyMap&&) noexcept = default;
 UncertaintyMap& UncertaintyMap::operator=(UncertaintyMap&&) noexcept = default;
@@ -104,7 +104,7 @@ VoxelRecord UncertaintyMap::at(VoxelKey key) const {
 }
 
 void UncertaintyMap::set(VoxelKey key, const VoxelRecord& record) {
-  Node& node = tree_->make_voxel(key);
+  Node& node = tree().make_voxel(key);
   node.setLogOdds(record.log_odds);
   node.set_uncertainty(tree_->isNodeOccupied(&node) ? record.uncertainty : kUnknownUncertainty);
   node.set_colour(record.colour);
@@ -142,6 +142,7 @@ bool UncertaintyMap::has_occupied() const {
 }
 
 bool UncertaintyMap::carries_uncertainty() const {
+  if (is_plain_) return false;
   return tree_->getRoot() != nullptr && any_certain_leaf(*tree_, *tree_->getRoot());
 }
 

@@ -37,7 +37,9 @@ class UncertaintyMap {
  public:
   /// An empty map. Throws InputError unless the resolution is positive and finite.
   explicit UncertaintyMap(double resolution_m);
-  explicit UncertaintyMap(std::unique_ptr<UncertaintyOcTree> tree);
+  /// `is_plain` says that no voxel of the tree carries uncertainty, as in plain OctoMaps; it spares
+  /// looking.
+  explicit UncertaintyMap(std::unique_ptr<UncertaintyOcTree> tree, bool is_plain = false);
   UncertaintyMap(UncertaintyMap&&) noexcept;
   UncertaintyMap& operator=(UncertaintyMap&&) noexcept;
   ~UncertaintyMap();
@@ -66,11 +68,16 @@ class UncertaintyMap {
   bool has_occupied() const;
 
   const UncertaintyOcTree& tree() const { return *tree_; }
-  UncertaintyOcTree& tree() { return *tree_; }
+  /// For writing.
+  UncertaintyOcTree& tree() {
+    is_plain_ = false;
+    return *tree_;
+  }
 
  private:
   std::unique_ptr<UncertaintyOcTree> tree_;
   Lattice lattice_;
+  bool is_plain_;  ///< known to carry no uncertainty
 };
 
 }  // namespace nbvopt
