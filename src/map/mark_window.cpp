@@ -54,17 +54,12 @@ void MarkWindow::mark_passed(SegmentWalk walk) {
   const Eigen::Vector3d least(least_.x, least_.y, least_.z);
   const Eigen::Vector3d size(tiles_[0] * kTileSize, tiles_[1] * kTileSize, tiles_[2] * kTileSize);
   if (!walk.clip(least, least + size)) return;
-  const auto part_from_zero = [&](int axis) {
-    return number_part_[axis].data() + 1 - static_cast<std::ptrdiff_t>(least[axis]);
-  };
-  const std::uint32_t* part_a = part_from_zero(walk.a());
-  const std::uint32_t* part_b = part_from_zero(walk.b());
-  const std::uint32_t* part_c = part_from_zero(walk.c());
-  std::uint8_t* marks = content_[0].data();
-  walk.for_each_slab([=](int slab, int b0, int c0, int b1, int c1) {
-    marks[part_a[slab] + part_b[b0] + part_c[c0]] = kPassed;
-    marks[part_a[slab] + part_b[b1] + part_c[c1]] = kPassed;
-  });
+  std::array<const std::uint32_t*, 3> part_by_key;
+  for (int axis = 0; axis < 3; ++axis) {
+    part_by_key[axis] = number_part_[axis].data() + 1 - static_cast<std::ptrdiff_t>(least[axis]);
+  }
+  walk.for_each_cell(
+      part_by_key, [marks = content_[0].data()](std::uint32_t number) { marks[number] = kPassed; });
 }
 
 HitVoxel& MarkWindow::mark_hit(VoxelKey key) {

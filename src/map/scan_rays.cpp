@@ -20,6 +20,11 @@ class RayCollector {
     rays_.origin = lattice.to_lattice(T_map_sensor.translation());
   }
 
+  void reserve(std::size_t rays) {
+    rays_.ends.reserve(rays);
+    rays_.hits.reserve(rays);
+  }
+
   void add_point(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
     const double range_m = range(p_sensor_m);
     if (!(range_m > sensor_.range_min_m) || !p_sensor_m.allFinite()) {
@@ -75,6 +80,7 @@ class RayCollector {
 ScanRays scan_rays(const Scan& scan, const Transform& T_map_sensor, const SensorOptions& sensor,
                    const Lattice& lattice) {
   RayCollector collector(T_map_sensor, sensor, lattice);
+  collector.reserve(scan.points_m.size() + scan.no_returns.size());
   for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
     collector.add_point(scan.points_m[i].cast<double>(), static_cast<std::uint32_t>(i));
   }

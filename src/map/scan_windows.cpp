@@ -1,6 +1,7 @@
 #include "map/scan_windows.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "map/mark_window.hpp"
@@ -13,6 +14,17 @@ namespace {
 constexpr int kTileSize = MarkWindow::kTileSize;
 constexpr int kWindowTiles = 4;  // an axis: marks of 16 MB at most
 constexpr int kWindowSize = kWindowTiles * kTileSize;
+
+constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+/// A coordinate's part of a packed key.
+struct PackedPart {
+  int shift;
+  std::uint64_t operator[](int coordinate) const {
+    return static_cast<std::uint64_t>(coordinate) << shift;
+  }
+};
+constexpr std::array kPacked{PackedPart{0}, PackedPart{16}, PackedPart{32}};
 
 /// Sorts the scan's work into windows that start at the least tile which the scan touches.
 class WindowSorter {
@@ -29,6 +41,7 @@ class WindowSorter {
   }
 
   std::vector<WindowWork> sorted() && {
+    if (((last_tile_ - first_tile_).array() < kWindowTiles).all()) return {whole_scan()};
     for (std::uint32_t i = 0; i < rays_.ends.size(); ++i) add_ray(i);
     for (std::uint32_t i = 0; i < rays_.hits.size(); ++i) add_hit(i);
     std::ranges::sort(work_, {}, [](const WindowWork& work) { return packed(work.least); });
@@ -36,25 +49,40 @@ class WindowSorter {
   }
 
  private:
+  /// The one window that holds all.
+  WindowWork whole_scan() const {
+    WindowWork work = window_at(Eigen::Vector3i::Zero());
+    work.rays.resize(rays_.ends.size());
+    work.hits.resize(rays_.hits.size());
+    std::iota(work.rays.begin(), work.rays.end(), 0U);
+    std::iota(work.hits.begin(), work.hits.end(), 0U);
+    return work;
+  }
+
+  /// A window without its work, by its place among the windows.
+  WindowWork window_at(const Eigen::Vector3i& place) const {
+    const Eigen::Vector3i tile = first_tile_ + place * kWindowTiles;
+    const Eigen::Vector3i tiles =
+        (last_tile_ - tile).cwiseMin(kWindowTiles - 1) + Eigen::Vector3i::Ones();
+    return {.least = key_of(tile * kTileSize),
+            .tiles = {tiles.x(), tiles.y(), tiles.z()},
+            .rays = {},
+            .hits = {}};
+  }
+
   void add_ray(std::uint32_t ray) {
     const SegmentWalk walk(in_windows(rays_.origin), in_windows(rays_.ends[ray]));
-    const auto add = [&](int a, int b, int c) {
-      Eigen::Vector3i window;
-      window[walk.a()] = a;
-      window[walk.b()] = b;
-      window[walk.c()] = c;
-      at(window).rays.push_back(ray);
-    };
-    walk.for_each_slab([&](int slab, int b0, int c0, int b1, int c1) {
-      add(slab, b0, c0);
-      if (b1 != b0 || c1 != c0) add(slab, b1, c1);
+    std::uint64_t recent = kNone;
+    walk.for_each_cell(kPacked, [&](std::uint64_t window) {
+      if (window != recent) at(window).rays.push_back(ray);
+      recent = window;
     });
   }
 
   void add_hit(std::uint32_t hit) {
     const VoxelKey key = rays_.hits[hit].key;
-    at((Eigen::Vector3i(key.x, key.y, key.z) - first_tile_ * kTileSize) / kWindowSize)
-        .hits.push_back(hit);
+    const Eigen::Vector3i voxel = Eigen::Vector3i(key.x, key.y, key.z) - first_tile_ * kTileSize;
+    at(packed(key_of(voxel / kWindowSize))).hits.push_back(hit);
   }
 
   /// A lattice point in a lattice of windows.
@@ -62,7 +90,8 @@ class WindowSorter {
     return (p - (first_tile_ * kTileSize).cast<double>()) / kWindowSize;
   }
 
-  WindowWork& at(const Eigen::Vector3i& window) {
+  /// The work of a window, named by the packed key of its place among the windows.
+  WindowWork& at(std::uint64_t window) {
     if (window != recent_window_) {
       recent_window_ = window;
       recent_index_ = index_of(window);
@@ -70,17 +99,11 @@ class WindowSorter {
     return work_[recent_index_];
   }
 
-  std::size_t index_of(const Eigen::Vector3i& window) {
-    const std::uint64_t id = packed(key_of(window));
-    const auto [entry, is_new] = index_.try_emplace(id, work_.size());
+  std::size_t index_of(std::uint64_t window) {
+    const auto [entry, is_new] = index_.try_emplace(window, work_.size());
     if (is_new) {
-      const Eigen::Vector3i tile = first_tile_ + window * kWindowTiles;
-      const Eigen::Vector3i tiles =
-          (last_tile_ - tile).cwiseMin(kWindowTiles - 1) + Eigen::Vector3i::Ones();
-      work_.push_back({.least = key_of(tile * kTileSize),
-                       .tiles = {tiles.x(), tiles.y(), tiles.z()},
-                       .rays = {},
-                       .hits = {}});
+      work_.push_back(window_at(
+          Eigen::Vector3i(window & 0xFFFF, window >> 16 & 0xFFFF, window >> 32 & 0xFFFF)));
     }
     return entry->second;
   }
@@ -94,7 +117,7 @@ class WindowSorter {
   Eigen::Vector3i first_tile_, last_tile_;
   std::vector<WindowWork> work_;
   std::unordered_map<std::uint64_t, std::size_t> index_;
-  Eigen::Vector3i recent_window_ = Eigen::Vector3i::Constant(-1);
+  std::uint64_t recent_window_ = kNone;
   std::size_t recent_index_ = 0;
 };
 

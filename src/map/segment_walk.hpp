@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -26,11 +27,6 @@ class SegmentWalk {
     slope_c_ = (end_[c_] - start_[c_]) * inverse_length;
   }
 
-  /// The axes, as indices of a vector: the slabs' axis, then the two others.
-  int a() const { return a_; }
-  int b() const { return b_; }
-  int c() const { return c_; }
-
   /// Cuts the segment to the part inside the box [least, most). Returns false when none is left.
   bool clip(const Eigen::Vector3d& least, const Eigen::Vector3d& most) {
     const auto inside = [&](const Eigen::Vector3d& p) {
@@ -48,31 +44,44 @@ class SegmentWalk {
     return start_[a_] <= end_[a_];
   }
 
-  /// Calls visit(slab, b0, c0, b1, c1) with the cells by which the segment enters and leaves each
-  /// slab, which may be one; where it passes a third between them, visit is called once more with
-  /// that one as both. Rounding may put b and c beyond the ends' cells by one.
-  template <class Visit>
-  void for_each_slab(const Visit& visit) const {
+  /// Calls visit(number) for every cell that the segment pierces, some of them twice. A cell's
+  /// number is the sum of number_part[axis][coordinate] over the axes; parts of different
+  /// coordinates differ. Rounding may ask for coordinates on b and c one beyond the ends'.
+  template <class Part, class Visit>
+  void for_each_cell(const std::array<Part, 3>& number_part, const Visit& visit) const {
+    const Part part_a = number_part[a_];
+    const Part part_b = number_part[b_];
+    const Part part_c = number_part[c_];
     int slab = static_cast<int>(start_[a_]);
     const int last = static_cast<int>(end_[a_]);
     std::int64_t b = fixed(start_[b_]);
     std::int64_t c = fixed(start_[c_]);
+    auto number_b = part_b[cell(b)];
+    auto number_c = part_c[cell(c)];
+    const auto pass_to = [&](std::int64_t next_b, std::int64_t next_c) {
+      const auto number_a = part_a[slab];
+      const auto next_number_b = part_b[cell(next_b)];
+      const auto next_number_c = part_c[cell(next_c)];
+      visit(number_a + number_b + number_c);
+      visit(number_a + next_number_b + next_number_c);
+      // One test of both, since either alone is as hard to predict as a coin.
+      if ((next_number_b != number_b) & (next_number_c != number_c)) [[unlikely]] {
+        const bool b_first = crosses_b_first(b, c, next_b, next_c);
+        visit(number_a + (b_first ? next_number_b + number_c : number_b + next_number_c));
+      }
+      b = next_b;
+      c = next_c;
+      number_b = next_number_b;
+      number_c = next_number_c;
+    };
     if (slab < last) {
       const double first_part = slab + 1 - start_[a_];
-      const std::int64_t b1 = fixed(start_[b_] + first_part * slope_b_);
-      const std::int64_t c1 = fixed(start_[c_] + first_part * slope_c_);
-      pass(slab, b, c, b1, c1, visit);
-      b = b1;
-      c = c1;
+      pass_to(fixed(start_[b_] + first_part * slope_b_), fixed(start_[c_] + first_part * slope_c_));
       const std::int64_t step_b = fixed(slope_b_);
       const std::int64_t step_c = fixed(slope_c_);
-      for (++slab; slab < last; ++slab) {
-        pass(slab, b, c, b + step_b, c + step_c, visit);
-        b += step_b;
-        c += step_c;
-      }
+      for (++slab; slab < last; ++slab) pass_to(b + step_b, c + step_c);
     }
-    pass(last, b, c, fixed(end_[b_]), fixed(end_[c_]), visit);
+    pass_to(fixed(end_[b_]), fixed(end_[c_]));
   }
 
  private:
@@ -107,19 +116,12 @@ class SegmentWalk {
     high = std::min(high, std::max(at_least, at_most));
   }
 
-  template <class Visit>
-  void pass(int slab, std::int64_t b0, std::int64_t c0, std::int64_t b1, std::int64_t c1,
-            const Visit& visit) const {
-    visit(slab, cell(b0), cell(c0), cell(b1), cell(c1));
-    if (cell(b0 ^ b1) == 0 || cell(c0 ^ c1) == 0) [[likely]]
-      return;
-    // The face that is crossed first: (face_b - b0) / slope_b < (face_c - c0) / slope_c.
+  /// Which face a slab's part that leaves its first cell on both axes crosses first:
+  /// (face_b - b0) / slope_b < (face_c - c0) / slope_c.
+  bool crosses_b_first(std::int64_t b0, std::int64_t c0, std::int64_t b1, std::int64_t c1) const {
     const double to_face_b = std::abs(static_cast<double>(face(b0, b1) - b0));
     const double to_face_c = std::abs(static_cast<double>(face(c0, c1) - c0));
-    const bool b_first = to_face_b * std::abs(slope_c_) < to_face_c * std::abs(slope_b_);
-    const int b_mid = cell(b_first ? b1 : b0);
-    const int c_mid = cell(b_first ? c0 : c1);
-    visit(slab, b_mid, c_mid, b_mid, c_mid);
+    return to_face_b * std::abs(slope_c_) < to_face_c * std::abs(slope_b_);
   }
 
   /// The face between the cells of two positions in neighbouring cells.

@@ -189,6 +189,16 @@ TEST(MapFile, ReadsOctoMapsFullFiles) {
   EXPECT_EQ(record.uncertainty, 1.0F);
 }
 
+TEST(MapFile, RestoresTheOccupancyOfInnerNodes) {
+  std::stringstream file;
+  octomap::OcTree tree(0.1);
+  tree.updateNode(octomap::point3d(0.55F, 0.35F, 0.25F), 0.7F);
+  tree.updateNode(octomap::point3d(0.65F, 0.35F, 0.25F), -0.3F);
+  tree.getRoot()->setLogOdds(-3.0F);
+  ASSERT_TRUE(tree.write(file));
+  EXPECT_TRUE(read_map(file, "map.ot").has_occupied());
+}
+
 TEST(MapFile, WritesOccupiedVoxelsAsColouredPoints) {
   const TemporaryFolder folder;
   UncertaintyMap map(0.5);

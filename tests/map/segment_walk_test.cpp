@@ -11,18 +11,19 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
+/// A coordinate's part of a number that holds all three.
+struct Part {
+  int shift;
+  std::uint64_t operator[](int coordinate) const {
+    return static_cast<std::uint64_t>(coordinate) << shift;
+  }
+};
+
 std::set<Cell> walked_cells(const SegmentWalk& walk) {
   std::set<Cell> cells;
-  const auto add = [&](int a, int b, int c) {
-    Cell cell{};
-    cell[walk.a()] = a;
-    cell[walk.b()] = b;
-    cell[walk.c()] = c;
-    cells.insert(cell);
-  };
-  walk.for_each_slab([&](int slab, int b0, int c0, int b1, int c1) {
-    add(slab, b0, c0);
-    add(slab, b1, c1);
+  walk.for_each_cell(std::array{Part{0}, Part{20}, Part{40}}, [&](std::uint64_t number) {
+    const auto coordinate = [&](int shift) { return static_cast<int>(number >> shift & 0xFFFFF); };
+    cells.insert({coordinate(0), coordinate(20), coordinate(40)});
   });
   return cells;
 }
