@@ -381,29 +381,33 @@ HWY_INLINE void Batch::store(RayHits& hits) const {
       hn::Max(hn::Zero(di),
               hn::Sub(hn::Sub(hn::Add(entered_axis_, entered_axis_), hn::Set(di, 1)), mirror));
 
-  alignas(64) std::array<std::int32_t, kMaxLanes> kinds, faces, x, y, z;
-  hn::Store(kind, di, kinds.data());
-  hn::Store(face, di, faces.data());
-  hn::Store(x_.key(walk_.origin_key.x()), di, x.data());
-  hn::Store(y_.key(walk_.origin_key.y()), di, y.data());
-  hn::Store(z_.key(walk_.origin_key.z()), di, z.data());
+  const hn::Rebind<std::uint8_t, TagI> du8;
+  const auto if_hit = [&](VecI v)
+                          HWY_ATTR { return hn::IfThenElseZero(hn::RebindMask(di, hit_), v); };
+  hn::StoreU(hn::DemoteTo(du8, kind), du8, reinterpret_cast<std::uint8_t*>(&hits.kind[first_]));
+  hn::StoreU(hn::DemoteTo(du8, if_hit(face)), du8,
+             reinterpret_cast<std::uint8_t*>(&hits.face[first_]));
+
+  const hn::Rebind<std::uint16_t, TagI> du16;
+  const auto key = [&](const Axis& axis, int origin_key) HWY_ATTR {
+    return hn::DemoteTo(du16, hn::And(if_hit(axis.key(origin_key)), hn::Set(di, 0xFFFF)));
+  };
+  hn::StoreInterleaved3(key(x_, walk_.origin_key.x()), key(y_, walk_.origin_key.y()),
+                        key(z_, walk_.origin_key.z()), du16, &hits.voxel[first_].x);
+
   const auto none_stored = static_cast<float>(walk_.occupied_uncertainty);
-  for (std::size_t lane = 0; lane < hn::Lanes(df); ++lane) {
-    const std::size_t i = first_ + lane;
-    const auto hit_kind = static_cast<HitKind>(kinds[lane]);
-    hits.kind[i] = hit_kind;
-    const bool is_hit = hit_kind >= HitKind::unknown;
-    hits.face[i] = is_hit ? static_cast<Face>(faces[lane]) : Face::inside;
-    const VoxelKey key{static_cast<std::uint16_t>(x[lane]), static_cast<std::uint16_t>(y[lane]),
-                       static_cast<std::uint16_t>(z[lane])};
-    hits.voxel[i] = is_hit ? key : VoxelKey{};
-    hits.uncertainty[i] = kUnknownUncertainty;
-    if (hit_kind == HitKind::occupied) {
-      const Brick* brick = walk_.bricks.brick[walk_.bricks.place_of(brick_of(key))];
-      hits.uncertainty[i] = brick->states->uncertainty_of_occupied(key, none_stored);
-    }
+  hn::StoreU(hn::IfThenElse(occupied_, hn::Set(df, none_stored), hn::Set(df, kUnknownUncertainty)),
+             df, &hits.uncertainty[first_]);
+  if (!walk_.look_up_uncertainty) return;
+  for (std::size_t i = first_; i < first_ + hn::Lanes(df); ++i) {
+    if (hits.kind[i] != HitKind::occupied) continue;
+    const Brick* brick = walk_.bricks.brick[walk_.bricks.place_of(brick_of(hits.voxel[i]))];
+    hits.uncertainty[i] = brick->states->uncertainty_of_occupied(hits.voxel[i], none_stored);
   }
 }
+
+static_assert(sizeof(VoxelKey) == 3 * sizeof(std::uint16_t));
+static_assert(sizeof(HitKind) == 1 && sizeof(Face) == 1);
 
 void walk_rays(const RayWalk& walk, RayHits& hits) {
   const std::size_t lanes = hn::Lanes(df);

@@ -132,6 +132,7 @@ void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_unc
   const Eigen::Vector3d origin_floor = origin_lattice.array().floor();
   walk.origin_key = origin_floor.cast<int>();
   walk.origin_in_voxel = origin_lattice - origin_floor;
+  walk.look_up_uncertainty = grid.carries_uncertainty();
   walk.occupied_uncertainty =
       grid.carries_uncertainty() ? double{kUnknownUncertainty} : occupied_uncertainty;
 

@@ -45,6 +45,7 @@ struct RayWalk {
   Eigen::Vector3i origin_key = Eigen::Vector3i::Zero();
   LocalBricks bricks;
   bool walk_near = false;  ///< something occupied is near: walk from the origin to range_min too
+  bool look_up_uncertainty = false;   ///< some bricks store u
   double occupied_uncertainty = 1.0;  ///< u of occupied voxels in bricks that store none
 };
 

@@ -15,7 +15,7 @@
 namespace nbvopt {
 
 namespace detail {
-struct BrickTable;
+class BrickTable;
 }
 
 class VoxelGrid {

@@ -11,8 +11,8 @@ namespace nbvopt {
 /// The rays of one image in the sensor frame. Structure of arrays, all of size
 /// horizontal * vertical.
 struct CameraRays {
-  std::vector<double> x, y, z;                  ///< unit direction
-  std::vector<double> range_min_m, range_max_m; ///< along the ray, from the optical centre
+  std::vector<double> x, y, z;                   ///< unit direction
+  std::vector<double> range_min_m, range_max_m;  ///< along the ray, from the optical centre
 
   std::size_t size() const { return x.size(); }
   Eigen::Vector3d direction(std::size_t i) const { return {x[i], y[i], z[i]}; }
