@@ -4,11 +4,11 @@
 namespace nbvopt {
 
 /// The exit codes, as --help lists them.
-enum ExitCode : int {
-  kAnswered = 0,
-  kUsageError = 2,     ///< the command line itself is wrong
-  kInputError = 3,     ///< a file or a value cannot be used
-  kInternalError = 4,  ///< anything else
+enum class ExitCode : int {
+  answered = 0,
+  usage_error = 2,     ///< the command line itself is wrong
+  input_error = 3,     ///< a file or a value cannot be used
+  internal_error = 4,  ///< anything else
 };
 
 }  // namespace nbvopt

@@ -35,7 +35,7 @@ void run(int argc, char** argv) {
 
 int fail(ExitCode code, const std::string& message) {
   print_message(message);
-  return code;
+  return static_cast<int>(code);
 }
 
 }  // namespace
@@ -45,14 +45,14 @@ int main(int argc, char** argv) {
   using namespace nbvopt;
   try {
     run(argc, argv);
-    return kAnswered;
+    return static_cast<int>(ExitCode::answered);
   } catch (const CLI::ParseError& error) {
-    return fail(kUsageError, std::string(error.what()) + " (nbvopt --help tells more)");
+    return fail(ExitCode::usage_error, std::string(error.what()) + " (nbvopt --help tells more)");
   } catch (const UsageError& error) {
-    return fail(kUsageError, error.what());
+    return fail(ExitCode::usage_error, error.what());
   } catch (const InputError& error) {
-    return fail(kInputError, error.what());
+    return fail(ExitCode::input_error, error.what());
   } catch (const std::exception& error) {
-    return fail(kInternalError, std::string("internal error: ") + error.what());
+    return fail(ExitCode::internal_error, std::string("internal error: ") + error.what());
   }
 }
