@@ -47,14 +47,16 @@ bool is_complete(PlanStatus status) {
   return status == PlanStatus::optimal_within_tolerance || status == PlanStatus::grid_complete;
 }
 
-/// The faces of the box that a point lies on; a frozen joint has none to speak of.
+/// The faces of the box that a point lies on, to rounding; a frozen joint has none to speak of.
 std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3d& q) {
+  constexpr double kRounding = 1e-9;  // of the box's width
   std::vector<std::string> names;
   for (const Joint joint : kJoints) {
     const auto i = static_cast<Eigen::Index>(joint);
     if (box.min[i] == box.max[i]) continue;
-    if (q[i] == box.min[i]) names.push_back(to_string(joint) + "_min");
-    if (q[i] == box.max[i]) names.push_back(to_string(joint) + "_max");
+    const double slack = kRounding * (box.max[i] - box.min[i]);
+    if (q[i] - box.min[i] <= slack) names.push_back(to_string(joint) + "_min");
+    if (box.max[i] - q[i] <= slack) names.push_back(to_string(joint) + "_max");
   }
   return names;
 }
