@@ -262,6 +262,30 @@ TEST(CastOneBundle, RefusesAnOriginThatIsNone) {
   EXPECT_THROW(cast_rays(*grid, rays.bundle(T_map_rays, true), 1.0, hits), InputError);
 }
 
+/// The only occupied voxel anywhere, passed just before range_min, to each side of the camera.
+TEST(CastOneBundle, IsBlockedByALoneVoxel) {
+  for (const double sign : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      UncertaintyMap map(0.1);
+      set_box(map, cube(key_from_origin(-12, -12, -12), 24), kFree);
+      const Eigen::Vector3d ahead = sign * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d camera_m = Eigen::Vector3d::Constant(0.05);
+      map.set(map.lattice().key(camera_m + 0.9 * ahead), occupied(1.0F));
+      map.finish_writing();
+      Rays rays;
+      for (int i = 0; i < 16; ++i) rays.add(ahead, 0.96, 1.1);
+      Transform T_map_rays = Transform::Identity();
+      T_map_rays.translation() = camera_m;
+      for (const SimdLevel level : supported_simd_levels()) {
+        RayHits hits;
+        cast_rays(*VoxelGrid::whole(map), rays.bundle(T_map_rays, true), 1.0, hits, level);
+        EXPECT_EQ(hits.kind, std::vector<HitKind>(16, HitKind::blocked)) << ahead.transpose();
+        EXPECT_EQ(hits.distance_m, rays.range_max_m);
+      }
+    }
+  }
+}
+
 /// `occupied_uncertainty` speaks for maps that carry none, not for voxels that were never seen.
 TEST(CastOneBundle, TakesTheGivenUncertaintyOnlyWhereTheMapCarriesNone) {
   UncertaintyMap map(0.1);

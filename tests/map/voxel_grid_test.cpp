@@ -297,6 +297,23 @@ TEST(VoxelGridUpdate, SharesTheBricksThatNoChangeReaches) {
   EXPECT_FALSE(shares(*other_state, detail::brick_of(key)));
 }
 
+/// One voxel in wide free space changes codes 16 voxels away, in the next brick or not.
+TEST(VoxelGridUpdate, RecodesAsFarAsCodesReach) {
+  const KeyBox wide = cube(key_from_origin(-48, -48, -48), 128);
+  UncertaintyMap map(0.1);
+  set_box(map, wide, kFree);
+  map.finish_writing();
+  const auto before = VoxelGrid::whole(map);
+  for (const int offset : {0, 14, 15, 16, 17, 31}) {
+    const VoxelKey key = key_from_origin(offset, offset, offset);
+    map.set(key, occupied(1.0F));
+    expect_same_bricks(
+        *before->updated(std::vector<VoxelChange>{{key, VoxelState::occupied, 1.0F}}),
+        *VoxelGrid::whole(map), wide);
+    map.set(key, kFree);
+  }
+}
+
 TEST(VoxelGridUpdate, RecodesNothingForANewUncertainty) {
   UncertaintyMap map(0.1);
   set_box(map, kCluttered, kFree);

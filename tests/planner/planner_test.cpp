@@ -303,6 +303,15 @@ TEST_F(HeightBox, IsWholeWhereNothingStands) {
   EXPECT_EQ(box_with({}).max[2], 0.63);
 }
 
+TEST_F(HeightBox, IsNotCutByTheUnknown) {
+  UncertaintyMap map(0.1);
+  map.set(map.lattice().key({0.03, 0.02, 0.41}), kFree);
+  map.finish_writing();
+  const JointBox box = World(map).planner().search_box(request_at(kMiddle, 0.0), kMiddle);
+  EXPECT_EQ(box.min[2], 0.18);
+  EXPECT_EQ(box.max[2], 0.63);
+}
+
 TEST_F(HeightBox, EndsBelowACeiling) {
   const JointBox box = box_with({0.55});
   EXPECT_LT(box.max[2], 0.49);
