@@ -48,6 +48,7 @@ void check_on_lattice(const PoseFile& poses, const Lattice& lattice, const std::
 void run_evaluate(const EvaluateOptions& options) {
   PoseFile poses = read_pose_file(options.pose_file, make_robot(options.view));
   set_counting(poses.sensor, options.view);
+  const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
   const UncertaintyMap map = read_map(options.map_file);
@@ -57,8 +58,7 @@ void run_evaluate(const EvaluateOptions& options) {
   const auto evaluator =
       make_evaluator(options.view.evaluator, map, VoxelGrid::lazy(map), poses.sensor);
   const Stopwatch evaluating;
-  const std::vector<ViewGain> gains =
-      evaluate_views(*evaluator, poses.poses_T_map_sensor, static_cast<int>(options.view.threads));
+  const std::vector<ViewGain> gains = evaluate_views(*evaluator, poses.poses_T_map_sensor);
   const double time_ms = evaluating.elapsed_ms();
 
   Json cases = Json::array();

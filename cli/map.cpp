@@ -149,9 +149,15 @@ void run_convert(const ConvertOptions& options) {
   }
 }
 
+/// A path that cannot be looked at counts as there: reading it says why it cannot be read.
+bool exists(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) || error;
+}
+
 /// The map to insert into: read, or made where --create says so and there is none.
 UncertaintyMap map_of(const InsertOptions& options) {
-  if (options.new_resolution_m && !std::filesystem::exists(options.map_file)) {
+  if (options.new_resolution_m && !exists(options.map_file)) {
     return UncertaintyMap(*options.new_resolution_m);
   }
   return read_map(options.map_file);

@@ -6,6 +6,7 @@
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/mast/mast.hpp"
+#include "nbvopt/planner/planner.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 
 namespace nbvopt {
@@ -69,12 +70,14 @@ std::vector<FieldSetting> settings(const Json& block, const std::string& where) 
 Transform pose_of_base(const Json& a_case, const Mast& mast, const std::string& where) {
   const Json& base = member(a_case, "base", where);
   const std::string where_base = where + ".base";
-  const Transform T_map_base = base_pose(
-      number(base, "x", where_base), number(base, "y", where_base),
-      base.contains("z") ? number(base, "z", where_base) : 0.0, number(base, "yaw", where_base));
-  return T_map_base * mast.T_base_sensor({.pan_rad = number(a_case, "pan", where),
-                                          .tilt_rad = number(a_case, "tilt", where),
-                                          .height_m = number(a_case, "height", where)});
+  PlanRequest request;
+  request.T_map_base = base_pose(number(base, "x", where_base), number(base, "y", where_base),
+                                 base.contains("z") ? number(base, "z", where_base) : 0.0,
+                                 number(base, "yaw", where_base));
+  return T_map_sensor(request, mast,
+                      {.pan_rad = number(a_case, "pan", where),
+                       .tilt_rad = number(a_case, "tilt", where),
+                       .height_m = number(a_case, "height", where)});
 }
 
 Transform pose(const Json& a_case, const Mast& mast, const std::string& where) {

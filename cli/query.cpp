@@ -1,7 +1,5 @@
 #include "cli/query.hpp"
 
-#include <tbb/global_control.h>
-
 #include <CLI/Option.hpp>
 #include <limits>
 #include <memory>
@@ -17,6 +15,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
+#include "nbvopt/solver/grid_coordinates.hpp"
 #include "nbvopt/solver/registry.hpp"
 
 namespace nbvopt {
@@ -46,15 +45,26 @@ struct QueryOptions {
   std::string plot_file;
 };
 
+void check_step(const std::string& option, double step, const std::string& unit) {
+  if (step >= 0.0) return;
+  throw InputError(option + " is " + format_number(step) + unit +
+                   ", it must be 0 (keeps the joint) or more");
+}
+
 void check(const QueryOptions& options) {
   if (options.motion_time_s < 0.0) {
     throw InputError("--motion-time is " + format_number(options.motion_time_s) +
                      " s, it must be 0 (no limit) or more");
   }
-  if (options.time_limit_ms && *options.time_limit_ms <= 0.0) {
+  constexpr double kLongestMs = 1e9;  // eleven days
+  if (options.time_limit_ms &&
+      !(*options.time_limit_ms > 0.0 && *options.time_limit_ms <= kLongestMs)) {
     throw InputError("--time-limit-ms is " + format_number(*options.time_limit_ms) +
-                     ", it must be greater than 0");
+                     ", it must be greater than 0 and at most " + format_number(kLongestMs));
   }
+  check_step("--step-pan", options.step_pan_rad, " rad");
+  check_step("--step-tilt", options.step_tilt_rad, " rad");
+  check_step("--step-height", options.step_height_m, " m");
   // A search whose answer could not be kept would be in vain.
   for (const std::string& file : {options.json_file, options.plot_file}) {
     if (!file.empty()) require_writable(file);
@@ -89,17 +99,21 @@ PlanRequest request_of(const QueryOptions& options, const Robot& robot) {
   return request;
 }
 
+/// The pans of the paper's grid; none with other solvers.
+std::vector<double> candidate_pans(const QueryOptions& options, const JointBox& box) {
+  constexpr double kMostToDraw = 200.0;
+  const double width_rad = box.max[0] - box.min[0];
+  if (options.solver != "grid" || options.step_pan_rad <= width_rad / kMostToDraw) return {};
+  return grid_coordinates(box.min[0], box.max[0], options.step_pan_rad);
+}
+
 void run_query(const QueryOptions& options) {
   check(options);
   const Robot robot = robot_of(options);
   const auto solver = make_solver(
       options.solver,
       {.grid_steps = {options.step_pan_rad, options.step_tilt_rad, options.step_height_m}});
-  std::optional<tbb::global_control> thread_limit;
-  if (options.view.threads > 0) {
-    thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(options.view.threads));
-  }
+  const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
   const UncertaintyMap map = read_map(options.map_file);
@@ -125,7 +139,9 @@ void run_query(const QueryOptions& options) {
     write_file_atomically(options.json_file, to_text(to_json(answer)));
   }
   if (!options.plot_file.empty()) {
-    write_plot({*grid, *evaluator, robot, answer.request, answer.result}, options.plot_file);
+    write_plot({*grid, *evaluator, robot, answer.request, answer.result,
+                candidate_pans(options, answer.result.box)},
+               options.plot_file);
   }
   if (options.json) {
     print_answer(to_text(to_json(answer)));

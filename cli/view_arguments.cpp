@@ -33,6 +33,12 @@ void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
                    "most threads to use; 0: all cores. Answers do not depend on it");
 }
 
+ThreadLimit::ThreadLimit(const ViewArguments& arguments) {
+  if (arguments.threads <= 0) return;
+  limit_.emplace(tbb::global_control::max_allowed_parallelism,
+                 static_cast<std::size_t>(arguments.threads));
+}
+
 Robot make_robot(const ViewArguments& arguments) {
   Robot robot = arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
   if (arguments.evaluator == kPaperCode) robot.sensor = paper_code_sensor(robot.sensor);

@@ -1,9 +1,12 @@
 // The options that say how views are judged; shared by the commands that judge views.
 #pragma once
 
+#include <tbb/global_control.h>
+
 #include <CLI/App.hpp>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nbvopt/gain/view_evaluator.hpp"
@@ -19,6 +22,15 @@ struct ViewArguments {
 };
 
 void add_view_arguments(CLI::App& app, ViewArguments& arguments);
+
+/// Holds the process to the threads that were asked for, while it lives.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(const ViewArguments& arguments);
+
+ private:
+  std::optional<tbb::global_control> limit_;  ///< none: all cores
+};
 
 /// The robot of the file, its sensor as the evaluator wants it.
 Robot make_robot(const ViewArguments& arguments);

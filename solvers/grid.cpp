@@ -9,6 +9,7 @@
 
 #include "batch_search.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/solver/grid_coordinates.hpp"
 
 namespace nbvopt {
 namespace {
@@ -16,11 +17,21 @@ namespace {
 /// A step that ends this share of itself past the upper end still counts: it is rounding.
 constexpr double kEndTolerance = 1e-9;
 
+/// Algorithm 2, line 7: GetNumberOfPoses, of one coordinate.
+double pose_count(double lower, double upper, double step) {
+  return std::floor((upper - lower) / step + kEndTolerance) + 1.0;
+}
+
+/// Algorithm 2, line 9: GetPose, of one coordinate. Never accumulated.
+double pose(double lower, double upper, double step, std::int64_t i) {
+  return std::min(lower + static_cast<double>(i) * step, upper);
+}
+
 /// The points of Algorithm 2, GetPossiblePoses, without the current one; the last coordinate runs
 /// fastest.
-class Lattice {
+class CandidateLattice {
  public:
-  Lattice(const Box& box, const Point& start, const std::vector<double>& steps)
+  CandidateLattice(const Box& box, const Point& start, const std::vector<double>& steps)
       : box_(box), start_(start), steps_(steps), index_(steps.size(), 0) {
     for (std::size_t i = 0; i < steps.size(); ++i) counts_.push_back(count(i));
   }
@@ -41,16 +52,12 @@ class Lattice {
   }
 
  private:
-  /// Algorithm 2, line 7: GetNumberOfPoses, of one coordinate.
   double count(std::size_t i) const {
-    if (steps_[i] == 0.0) return 1.0;
-    return std::floor((box_.upper[i] - box_.lower[i]) / steps_[i] + kEndTolerance) + 1.0;
+    return steps_[i] == 0.0 ? 1.0 : pose_count(box_.lower[i], box_.upper[i], steps_[i]);
   }
 
-  /// Algorithm 2, line 9: GetPose, of one coordinate. Never accumulated.
   double coordinate(std::size_t i) const {
-    if (steps_[i] == 0.0) return start_[i];
-    return std::min(box_.lower[i] + index_[i] * steps_[i], box_.upper[i]);
+    return steps_[i] == 0.0 ? start_[i] : pose(box_.lower[i], box_.upper[i], steps_[i], index_[i]);
   }
 
   void advance() {
@@ -71,6 +78,15 @@ class Lattice {
 
 }  // namespace
 
+std::vector<double> grid_coordinates(double lower, double upper, double step) {
+  std::vector<double> coordinates;
+  const double count = pose_count(lower, upper, step);
+  for (std::int64_t i = 0; static_cast<double>(i) < count; ++i) {
+    coordinates.push_back(pose(lower, upper, step, i));
+  }
+  return coordinates;
+}
+
 GridSolver::GridSolver(std::vector<double> steps) : steps_(std::move(steps)) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     if (std::isfinite(steps_[i]) && steps_[i] >= 0.0) continue;
@@ -87,7 +103,7 @@ SolveResult GridSolver::do_solve(const Objective& objective, const SolveRequest&
     throw UsageError("grid_steps: " + std::to_string(steps_.size()) + " given, " +
                      std::to_string(box.dimension()) + " needed, one a coordinate");
   }
-  Lattice lattice(box, request.start, steps_);
+  CandidateLattice lattice(box, request.start, steps_);
   if (lattice.size() > kMaxCandidates) {
     std::ostringstream text;
     text << "grid_steps: " << lattice.size() << " candidates, more than " << kMaxCandidates

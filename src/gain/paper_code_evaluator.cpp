@@ -32,6 +32,9 @@ class PaperCodeEvaluator final : public ViewEvaluator {
     if (!T_map_sensor.matrix().allFinite()) {
       throw InputError("the sensor's pose holds a number that is not finite");
     }
+    if (!map_.lattice().contains(T_map_sensor.translation())) {
+      throw InputError("the camera is off the map's lattice, which spans 65536 voxels an axis");
+    }
     ViewGain view;
     for (const Eigen::Vector3d& unit_point : unit_points_) {
       add_ray(T_map_sensor, unit_point, view);

@@ -27,6 +27,7 @@ std::pair<Eigen::Vector3i, Eigen::Vector3i> keys_of(const Eigen::Vector3d& origi
 
 /// Gathers the bricks of the box, which are read from the map where they are not ready.
 void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::LocalBricks& local) {
+  detail::check_size(box);
   local.min = box.min;
   local.size_x = box.max.x - box.min.x + 1;
   local.size_y = box.max.y - box.min.y + 1;

@@ -8,11 +8,17 @@
 #include <set>
 #include <tuple>
 
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+
 namespace nbvopt::detail {
 namespace {
 
 /// Bricks are 2^11 an axis.
 constexpr int kBrickKeys = 65536 / kBrickSize;
+
+/// A box beyond this, 2 x 10^11 voxels, is a mistake in the sensor's range or the map's resolution.
+constexpr double kMaxBoxBricks = 1 << 22;
 
 std::uint64_t packed(BrickKey key) {
   return static_cast<std::uint64_t>(key.x) | static_cast<std::uint64_t>(key.y) << 16 |
@@ -85,15 +91,27 @@ std::shared_ptr<const BrickStates> with_changes(const BrickStates& before,
 
 }  // namespace
 
-BrickTable::BrickTable(const UncertaintyOcTree& tree)
-    : tree_(&tree), unknown_(unknown_brick().get()) {
-  const std::vector<BrickKey> blocks = known_blocks(tree);
-  lay_out(blocks);
-  for (const BrickKey& block : blocks) {
-    auto& place = blocks_[place_of(block)];
-    place = std::make_shared<Block>();
-    place->key = block;
+void check_size(const BrickBox& box) {
+  if (box.size() > kMaxBoxBricks) {
+    throw InputError("the views reach over " + format_number(box.size()) +
+                     " bricks of 32 voxels a side, more than " + format_number(kMaxBoxBricks) +
+                     ": lower sensor.range_max_m or take a coarser map");
   }
+}
+
+BrickTable::Block* BrickTable::unknown_block() {
+  static const std::unique_ptr<Block> block = [] {
+    auto b = std::make_unique<Block>();
+    for (int slot = 0; slot < kBlockBricks; ++slot) b->store(slot, unknown_brick());
+    return b;
+  }();
+  return block.get();
+}
+
+BrickTable::BrickTable(const UncertaintyOcTree& tree) : tree_(&tree) {
+  const std::vector<BrickKey> known = known_blocks(tree);
+  lay_out(known);
+  for (const BrickKey& block : known) blocks_[place_of(block)] = nullptr;
 }
 
 void BrickTable::lay_out(const std::vector<BrickKey>& blocks) {
@@ -105,27 +123,30 @@ void BrickTable::lay_out(const std::vector<BrickKey>& blocks) {
     max = {std::max(max.x, b.x), std::max(max.y, b.y), std::max(max.z, b.z)};
   }
   size_ = {max.x - min_.x + 1, max.y - min_.y + 1, max.z - min_.z + 1};
-  blocks_.resize(static_cast<std::size_t>(size_.x) * size_.y * size_.z);
+  const std::size_t places = static_cast<std::size_t>(size_.x) * size_.y * size_.z;
+  blocks_ = std::vector<std::atomic<Block*>>(places);
+  for (auto& block : blocks_) block = unknown_block_;
+  owned_blocks_.resize(places);
 }
 
-bool BrickTable::is_ready(BrickKey key) const {
-  const Block* block = block_of(key);
-  return block == nullptr || block->ready[slot_of(key)].load(std::memory_order_acquire) != nullptr;
+void BrickTable::own(std::shared_ptr<Block> block) const {
+  const int place = place_of(block->key);
+  blocks_[place].store(block.get(), std::memory_order_release);
+  owned_blocks_[place] = std::move(block);
 }
 
 const std::shared_ptr<const BrickStates>& BrickTable::states_of(BrickKey key) const {
-  const Block* block = block_of(key);
-  if (block == nullptr) return unknown_brick()->states;
-  const Brick* brick = block->ready[slot_of(key)].load(std::memory_order_acquire);
+  const Brick* brick = ready_brick(key);
   return brick != nullptr ? brick->states : states_.at(packed(key));
 }
 
 void BrickTable::make_ready(const BrickBox& box) const {
+  check_size(box);
   if (is_whole()) return;
   const auto missing_in = [this](const BrickBox& in) {
     std::vector<BrickKey> missing;
     in.for_each([&](BrickKey key) {
-      if (!is_ready(key)) missing.push_back(key);
+      if (ready_brick(key) == nullptr) missing.push_back(key);
     });
     return missing;
   };
@@ -134,16 +155,16 @@ void BrickTable::make_ready(const BrickBox& box) const {
   const std::vector<BrickKey> missing = missing_in(box);
 
   // Codes need the neighbours' states too.
-  std::vector<std::pair<BrickKey, std::shared_ptr<const BrickStates>*>> to_read;
+  std::vector<std::pair<BrickKey, std::shared_ptr<const BrickStates>>> read;
   for (const BrickKey& key : missing_in({{box.min.x - 1, box.min.y - 1, box.min.z - 1},
                                          {box.max.x + 1, box.max.y + 1, box.max.z + 1}})) {
-    const auto [entry, is_new] = states_.try_emplace(packed(key));
-    if (is_new) to_read.emplace_back(key, &entry->second);
+    if (!states_.contains(packed(key))) read.emplace_back(key, unknown_brick()->states);
   }
-  for_each_in_parallel(to_read, [this](const auto& read) {
-    *read.second = read_brick(*tree_, read.first);
-    if (*read.second == nullptr) *read.second = unknown_brick()->states;
+  for_each_in_parallel(read, [this](auto& brick) {
+    if (auto states = read_brick(*tree_, brick.first)) brick.second = std::move(states);
   });
+  for (auto& [key, states] : read) states_.emplace(packed(key), std::move(states));
+
   std::vector<std::pair<BrickKey, std::shared_ptr<const Brick>>> bricks;
   for (const BrickKey& key : missing) bricks.emplace_back(key, nullptr);
   for_each_in_parallel(bricks, [this](auto& brick) {
@@ -151,36 +172,40 @@ void BrickTable::make_ready(const BrickBox& box) const {
     brick.second = make_brick(states_of(brick.first), neighbourhood_of(brick.first, raw_states_of));
   });
   for (auto& [key, brick] : bricks) {
+    if (block_of(key) == nullptr) {
+      auto block = std::make_shared<Block>();
+      block->key = block_key(key);
+      own(std::move(block));
+    }
     block_of(key)->store(slot_of(key), std::move(brick));
     states_.erase(packed(key));
   }
 }
 
 void BrickTable::read_all() {
-  for (const auto& block : blocks_) {
-    if (block == nullptr) continue;
-    const BrickKey first{block->key.x << kBlockBits, block->key.y << kBlockBits,
-                         block->key.z << kBlockBits};
+  const BrickBox blocks{min_, {min_.x + size_.x - 1, min_.y + size_.y - 1, min_.z + size_.z - 1}};
+  blocks.for_each([this](BrickKey block) {
+    const BrickKey first{block.x << kBlockBits, block.y << kBlockBits, block.z << kBlockBits};
+    if (block_of(first) == unknown_block_) return;
     make_ready(
         {first, {first.x + kBlockSize - 1, first.y + kBlockSize - 1, first.z + kBlockSize - 1}});
-  }
+  });
   states_.clear();
   tree_ = nullptr;
 }
 
-BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> changes)
-    : unknown_(previous.unknown_) {
+BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> changes) {
   std::map<BrickKey, std::vector<VoxelChange>, BrickOrder> changes_of;
   for (const VoxelChange& change : changes) changes_of[brick_of(change.key)].push_back(change);
 
   std::vector<BrickKey> blocks;
-  for (const auto& block : previous.blocks_) {
+  for (const auto& block : previous.owned_blocks_) {
     if (block != nullptr) blocks.push_back(block->key);
   }
   for (const auto& [brick, unused] : changes_of) blocks.push_back(block_key(brick));
   lay_out(blocks);
-  for (const auto& block : previous.blocks_) {
-    if (block != nullptr) blocks_[place_of(block->key)] = block;
+  for (const auto& block : previous.owned_blocks_) {
+    if (block != nullptr) own(block);
   }
 
   // The states of changed bricks first, since codes need the neighbours'.
@@ -211,18 +236,16 @@ BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> 
   std::set<const Block*> own_blocks;
   for (const BrickKey& key : to_code) {
     if (states_of(key)->is_all_unknown() && !states.contains(key)) continue;
-    auto& block = blocks_[place_of(block_key(key))];
-    if (!own_blocks.contains(block.get())) {
+    const Block* shared_block = block_of(key);
+    if (!own_blocks.contains(shared_block)) {
       auto copy = std::make_shared<Block>();
       copy->key = block_key(key);
-      for (int slot = 0; slot < kBlockBricks; ++slot) {
-        copy->store(slot, block != nullptr ? block->owned[slot] : unknown_brick());
-      }
-      block = std::move(copy);
-      own_blocks.insert(block.get());
+      for (int slot = 0; slot < kBlockBricks; ++slot) copy->store(slot, shared_block->owned[slot]);
+      own_blocks.insert(copy.get());
+      own(std::move(copy));
     }
     const auto changed = states.find(key);
-    block->store(
+    block_of(key)->store(
         slot_of(key),
         make_brick(changed != states.end() ? changed->second : previous.ready_brick(key)->states,
                    neighbourhood_of(key, states_of)));
@@ -230,13 +253,13 @@ BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> 
 }
 
 std::size_t BrickTable::memory_bytes() const {
-  std::size_t bytes = blocks_.size() * sizeof(blocks_[0]);
-  for (const auto& block : blocks_) {
+  std::size_t bytes = blocks_.size() * (sizeof(blocks_[0]) + sizeof(owned_blocks_[0]));
+  for (const auto& block : owned_blocks_) {
     if (block == nullptr) continue;
     bytes += sizeof(Block);
     for (const auto& ready : block->ready) {
       const Brick* brick = ready.load(std::memory_order_acquire);
-      if (brick == nullptr || brick == unknown_) continue;
+      if (brick == nullptr || brick == unknown_brick().get()) continue;
       bytes +=
           sizeof(Brick) + sizeof(BrickStates) + brick->states->uncertainty.size() * sizeof(float);
     }

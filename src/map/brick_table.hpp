@@ -22,6 +22,11 @@ struct BrickBox {
   BrickKey min;
   BrickKey max;
 
+  /// Not an integer, so that no box overflows it.
+  double size() const {
+    return (max.x - min.x + 1.0) * (max.y - min.y + 1.0) * (max.z - min.z + 1.0);
+  }
+
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (int z = min.z; z <= max.z; ++z) {
@@ -31,6 +36,9 @@ struct BrickBox {
     }
   }
 };
+
+/// Throws InputError when the box is absurdly large.
+void check_size(const BrickBox& box);
 
 inline BrickBox bricks_of(const KeyBox& box) { return {brick_of(box.min), brick_of(box.max)}; }
 
@@ -46,14 +54,13 @@ class BrickTable {
   void read_all();
   bool is_whole() const { return tree_ == nullptr; }
 
-  /// Makes the bricks of the box ready. Thread-safe.
+  /// Makes the bricks of the box ready. Thread-safe. Throws InputError when the box is absurd.
   void make_ready(const BrickBox& box) const;
 
-  /// A brick that was made ready; never null. Lock-free.
+  /// A brick that was made ready, null if it was not. Lock-free.
   const Brick* ready_brick(BrickKey key) const {
     const Block* block = block_of(key);
-    if (block == nullptr) return unknown_;
-    return block->ready[slot_of(key)].load(std::memory_order_acquire);
+    return block == nullptr ? nullptr : block->ready[slot_of(key)].load(std::memory_order_acquire);
   }
 
   std::size_t memory_bytes() const;
@@ -92,25 +99,32 @@ class BrickTable {
                         static_cast<unsigned>(z) < static_cast<unsigned>(size_.z);
     return inside ? x + size_.x * (y + size_.y * z) : -1;
   }
+  /// The block of a brick; null while none of its bricks was read.
   Block* block_of(BrickKey brick) const {
     const int place = place_of(block_key(brick));
-    return place < 0 ? nullptr : blocks_[place].get();
+    return place < 0 ? unknown_block_ : blocks_[place].load(std::memory_order_acquire);
   }
 
-  /// Lays out blocks_ over the given blocks.
+  /// The block in which nothing is known, shared by all tables.
+  static Block* unknown_block();
+
+  /// Lays out the table over the given blocks, all unknown.
   void lay_out(const std::vector<BrickKey>& blocks);
 
-  bool is_ready(BrickKey key) const;
+  /// Puts a block in its place.
+  void own(std::shared_ptr<Block> block) const;
 
   /// The states of a brick that is ready or has been read.
   const std::shared_ptr<const BrickStates>& states_of(BrickKey key) const;
 
   const UncertaintyOcTree* tree_ = nullptr;  ///< null once everything is read
-  const Brick* unknown_;
+  Block* unknown_block_ = unknown_block();
   BrickKey min_;
   BrickKey size_{0, 0, 0};
-  /// Shared with other versions of the grid; a version writes only blocks of its own.
-  std::vector<std::shared_ptr<Block>> blocks_;
+  // A block is made when the first of its bricks is read, under mutex_; then it stays.
+  mutable std::vector<std::atomic<Block*>> blocks_;
+  /// The same; shared with other versions of the grid. A version writes only blocks of its own.
+  mutable std::vector<std::shared_ptr<Block>> owned_blocks_;
 
   mutable std::mutex mutex_;
   /// States read from the tree, ahead of the codes, which need the neighbours' states too.

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "map/mark_window.hpp"
 #include "map/scan_rays.hpp"
 #include "map/scan_windows.hpp"
 #include "map/segment_walk.hpp"
 #include "map/tile_update.hpp"
+#include "nbvopt/core/error.hpp"
 #include "nbvopt/map/scan.hpp"
 
 namespace nbvopt {
@@ -21,13 +25,13 @@ void add_hit(const ScanHit& hit, const Scan& scan, MarkWindow& window) {
   ++voxel.coloured_points;
 }
 
-void insert_window(UncertaintyOcTree& tree, const Scan& scan, const ScanRays& rays,
-                   const WindowWork& work, std::vector<VoxelChange>& changes) {
+void insert_window(UncertaintyOcTree& tree, const Scan& scan, const WindowWork& work,
+                   std::vector<VoxelChange>& changes) {
   MarkWindow window(work.least, work.tiles);
-  for (const std::uint32_t ray : work.rays) {
-    window.mark_passed(SegmentWalk(rays.origin, rays.ends[ray]));
+  for (const Eigen::Vector3d& end : work.rays.ends) {
+    window.mark_passed(SegmentWalk(work.rays.origin, end));
   }
-  for (const std::uint32_t hit : work.hits) add_hit(rays.hits[hit], scan, window);
+  for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan, window);
   window.summarise();
   TileUpdate update(tree, window, changes);
   for (std::uint32_t tile = 0; tile < window.tile_count(); ++tile) update.apply(tile);
@@ -37,13 +41,18 @@ void insert_window(UncertaintyOcTree& tree, const Scan& scan, const ScanRays& ra
 
 InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform& T_map_sensor,
                          const SensorOptions& sensor) {
-  const ScanRays rays = scan_rays(scan, T_map_sensor, sensor, map.lattice());
+  sensor.validate();
+  if (!scan.colours.empty() && scan.colours.size() != scan.points_m.size()) {
+    throw UsageError("scan: " + std::to_string(scan.colours.size()) + " colours for " +
+                     std::to_string(scan.points_m.size()) + " points, give one a point or none");
+  }
+  ScanRays rays = scan_rays(scan, T_map_sensor, sensor, map.lattice());
   InsertResult result;
   result.points_used = rays.hits.size();
   result.rays_cleared = rays.cleared;
   result.points_ignored = rays.ignored;
-  for (const WindowWork& work : scan_windows(rays)) {
-    insert_window(map.tree(), scan, rays, work, result.changes);
+  for (const WindowWork& work : scan_windows(std::move(rays))) {
+    insert_window(map.tree(), scan, work, result.changes);
   }
   return result;
 }

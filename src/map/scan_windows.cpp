@@ -1,8 +1,8 @@
 #include "map/scan_windows.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "map/mark_window.hpp"
 #include "map/segment_walk.hpp"
@@ -29,10 +29,10 @@ constexpr std::array kPacked{PackedPart{0}, PackedPart{16}, PackedPart{32}};
 /// Sorts the scan's work into windows that start at the least tile which the scan touches.
 class WindowSorter {
  public:
-  explicit WindowSorter(const ScanRays& rays) : rays_(rays) {
-    Eigen::Vector3d least = rays.origin;
-    Eigen::Vector3d most = rays.origin;
-    for (const Eigen::Vector3d& end : rays.ends) {
+  explicit WindowSorter(ScanRays rays) : rays_(std::move(rays)) {
+    Eigen::Vector3d least = rays_.origin;
+    Eigen::Vector3d most = rays_.origin;
+    for (const Eigen::Vector3d& end : rays_.ends) {
       least = least.cwiseMin(end);
       most = most.cwiseMax(end);
     }
@@ -41,48 +41,41 @@ class WindowSorter {
   }
 
   std::vector<WindowWork> sorted() && {
-    if (((last_tile_ - first_tile_).array() < kWindowTiles).all()) return {whole_scan()};
-    for (std::uint32_t i = 0; i < rays_.ends.size(); ++i) add_ray(i);
-    for (std::uint32_t i = 0; i < rays_.hits.size(); ++i) add_hit(i);
+    if (((last_tile_ - first_tile_).array() < kWindowTiles).all()) {
+      work_.push_back(window_at(Eigen::Vector3i::Zero()));
+      work_.front().rays = std::move(rays_);
+      return std::move(work_);
+    }
+    for (const Eigen::Vector3d& end : rays_.ends) add_ray(end);
+    for (const ScanHit& hit : rays_.hits) add_hit(hit);
     std::ranges::sort(work_, {}, [](const WindowWork& work) { return packed(work.least); });
     return std::move(work_);
   }
 
  private:
-  /// The one window that holds all.
-  WindowWork whole_scan() const {
-    WindowWork work = window_at(Eigen::Vector3i::Zero());
-    work.rays.resize(rays_.ends.size());
-    work.hits.resize(rays_.hits.size());
-    std::iota(work.rays.begin(), work.rays.end(), 0U);
-    std::iota(work.hits.begin(), work.hits.end(), 0U);
-    return work;
-  }
-
-  /// A window without its work, by its place among the windows.
+  /// A window without rays and hits, by its place among the windows.
   WindowWork window_at(const Eigen::Vector3i& place) const {
     const Eigen::Vector3i tile = first_tile_ + place * kWindowTiles;
     const Eigen::Vector3i tiles =
         (last_tile_ - tile).cwiseMin(kWindowTiles - 1) + Eigen::Vector3i::Ones();
-    return {.least = key_of(tile * kTileSize),
-            .tiles = {tiles.x(), tiles.y(), tiles.z()},
-            .rays = {},
-            .hits = {}};
+    WindowWork work{key_of(tile * kTileSize), {tiles.x(), tiles.y(), tiles.z()}, {}};
+    work.rays.origin = rays_.origin;
+    return work;
   }
 
-  void add_ray(std::uint32_t ray) {
-    const SegmentWalk walk(in_windows(rays_.origin), in_windows(rays_.ends[ray]));
+  void add_ray(const Eigen::Vector3d& end) {
+    const SegmentWalk walk(in_windows(rays_.origin), in_windows(end));
     std::uint64_t recent = kNone;
     walk.for_each_cell(kPacked, [&](std::uint64_t window) {
-      if (window != recent) at(window).rays.push_back(ray);
+      if (window != recent) at(window).rays.ends.push_back(end);
       recent = window;
     });
   }
 
-  void add_hit(std::uint32_t hit) {
-    const VoxelKey key = rays_.hits[hit].key;
-    const Eigen::Vector3i voxel = Eigen::Vector3i(key.x, key.y, key.z) - first_tile_ * kTileSize;
-    at(packed(key_of(voxel / kWindowSize))).hits.push_back(hit);
+  void add_hit(const ScanHit& hit) {
+    const Eigen::Vector3i voxel =
+        Eigen::Vector3i(hit.key.x, hit.key.y, hit.key.z) - first_tile_ * kTileSize;
+    at(packed(key_of(voxel / kWindowSize))).rays.hits.push_back(hit);
   }
 
   /// A lattice point in a lattice of windows.
@@ -113,7 +106,7 @@ class WindowSorter {
             static_cast<std::uint16_t>(p.z())};
   }
 
-  const ScanRays& rays_;
+  ScanRays rays_;
   Eigen::Vector3i first_tile_, last_tile_;
   std::vector<WindowWork> work_;
   std::unordered_map<std::uint64_t, std::size_t> index_;
@@ -123,6 +116,8 @@ class WindowSorter {
 
 }  // namespace
 
-std::vector<WindowWork> scan_windows(const ScanRays& rays) { return WindowSorter(rays).sorted(); }
+std::vector<WindowWork> scan_windows(ScanRays rays) {
+  return WindowSorter(std::move(rays)).sorted();
+}
 
 }  // namespace nbvopt

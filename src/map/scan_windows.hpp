@@ -2,23 +2,22 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "map/scan_rays.hpp"
 
 namespace nbvopt {
 
-/// The rays that may pierce one window and the hits in it, as indices of ScanRays.
+/// The part of the lattice that one window covers, with the rays that may pierce it and the hits
+/// in it.
 struct WindowWork {
   VoxelKey least;
   std::array<int, 3> tiles{};
-  std::vector<std::uint32_t> rays;
-  std::vector<std::uint32_t> hits;
+  ScanRays rays;
 };
 
 /// The windows in an order that depends on nothing but their places. A camera's scan at the usual
 /// resolutions is one window.
-std::vector<WindowWork> scan_windows(const ScanRays& rays);
+std::vector<WindowWork> scan_windows(ScanRays rays);
 
 }  // namespace nbvopt

@@ -52,13 +52,20 @@ class SegmentWalk {
     const Part part_a = number_part[a_];
     const Part part_b = number_part[b_];
     const Part part_c = number_part[c_];
-    int slab = static_cast<int>(start_[a_]);
+    const int first = static_cast<int>(start_[a_]);
     const int last = static_cast<int>(end_[a_]);
-    std::int64_t b = fixed(start_[b_]);
-    std::int64_t c = fixed(start_[c_]);
-    auto number_b = part_b[cell(b)];
-    auto number_c = part_c[cell(c)];
-    const auto pass_to = [&](std::int64_t next_b, std::int64_t next_c) {
+    const std::int64_t end_b = fixed(end_[b_]);
+    const std::int64_t end_c = fixed(end_[c_]);
+    const std::int64_t step_b = fixed(slope_b_);
+    const std::int64_t step_c = fixed(slope_c_);
+    // Where the line enters the slab, and by which cell the segment does.
+    std::int64_t b = fixed(start_[b_] - (start_[a_] - first) * slope_b_);
+    std::int64_t c = fixed(start_[c_] - (start_[a_] - first) * slope_c_);
+    auto number_b = part_b[cell(fixed(start_[b_]))];
+    auto number_c = part_c[cell(fixed(start_[c_]))];
+    for (int slab = first; slab <= last; ++slab) {
+      const std::int64_t next_b = slab == last ? end_b : b + step_b;
+      const std::int64_t next_c = slab == last ? end_c : c + step_c;
       const auto number_a = part_a[slab];
       const auto next_number_b = part_b[cell(next_b)];
       const auto next_number_c = part_c[cell(next_c)];
@@ -73,15 +80,7 @@ class SegmentWalk {
       c = next_c;
       number_b = next_number_b;
       number_c = next_number_c;
-    };
-    if (slab < last) {
-      const double first_part = slab + 1 - start_[a_];
-      pass_to(fixed(start_[b_] + first_part * slope_b_), fixed(start_[c_] + first_part * slope_c_));
-      const std::int64_t step_b = fixed(slope_b_);
-      const std::int64_t step_c = fixed(slope_c_);
-      for (++slab; slab < last; ++slab) pass_to(b + step_b, c + step_c);
     }
-    pass_to(fixed(end_[b_]), fixed(end_[c_]));
   }
 
  private:

@@ -104,6 +104,10 @@ VoxelRecord UncertaintyMap::at(VoxelKey key) const {
 }
 
 void UncertaintyMap::set(VoxelKey key, const VoxelRecord& record) {
+  if (!std::isfinite(record.log_odds) ||
+      !(record.uncertainty >= 0.0F && record.uncertainty <= 1.0F)) {
+    throw UsageError("a voxel's log-odds must be finite, its uncertainty in [0, 1]");
+  }
   Node& node = tree().make_voxel(key);
   node.setLogOdds(record.log_odds);
   node.set_uncertainty(tree_->isNodeOccupied(&node) ? record.uncertainty : kUnknownUncertainty);

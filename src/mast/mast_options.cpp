@@ -20,6 +20,7 @@ void check_velocity(std::string_view field, double value) {
 }  // namespace
 
 void MastOptions::validate() const {
+  constexpr double kMaxHeightM = 100.0;  // a slip of the unit lies beyond it
   constexpr double kRightAngle = 0.5 * std::numbers::pi;
   check_limits("mast.pan_min_rad", pan_min_rad, "mast.pan_max_rad", pan_max_rad);
   check_velocity("mast.pan_velocity_rad_s", pan_velocity_rad_s);
@@ -29,6 +30,8 @@ void MastOptions::validate() const {
   check_field(tilt_max_rad <= kRightAngle, "mast.tilt_max_rad", tilt_max_rad, "at most pi/2 rad");
   check_velocity("mast.tilt_velocity_rad_s", tilt_velocity_rad_s);
   check_limits("mast.height_min_m", height_min_m, "mast.height_max_m", height_max_m);
+  check_field(height_min_m >= -kMaxHeightM, "mast.height_min_m", height_min_m, "at least -100 m");
+  check_field(height_max_m <= kMaxHeightM, "mast.height_max_m", height_max_m, "at most 100 m");
   check_velocity("mast.height_velocity_m_s", height_velocity_m_s);
   for (const double coordinate : sensor_offset_m) {
     check_field(true, "mast.sensor_offset_m", coordinate, "three finite numbers");

@@ -61,14 +61,14 @@ std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3
   return names;
 }
 
-std::string why_no_gain(const VoxelGrid& grid, const PlanResult& result) {
-  const VoxelKey camera = grid.lattice().key(result.T_map_sensor.translation());
+/// `camera` is the voxel that holds the optical centre where the mast is.
+std::string why_no_gain(const VoxelGrid& grid, VoxelKey camera, const PlanResult& result) {
   if (grid.state(camera) == VoxelState::occupied) return "the sensor is inside an obstacle";
   const ViewGain& view = result.view;
   if (view.unknown_rays + view.occupied_rays == 0) {
     return "in the best view all rays end in free space or are blocked nearby";
   }
-  return "all that can be seen from the reachable views is known well enough";
+  return "what the best view would see is known well enough";
 }
 
 std::string explain(const PlanResult& result) {
@@ -148,7 +148,8 @@ void Planner::choose(const PlanRequest& request, const JointPosition& joints,
   result.status = plan_status(solved.status);
   if (is_complete(result.status) && result.view.gain < request.min_gain) {
     result.status = PlanStatus::no_gain_in_reach;
-    result.message = "stay: " + why_no_gain(*grid_, result);
+    const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
+    result.message = "stay: " + why_no_gain(*grid_, grid_->lattice().key(camera_m), result);
     take(joints);
   } else {
     result.message = explain(result);

@@ -259,7 +259,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{{"--pan", "0", "--pan", "1"}, 2, "--pan"},
                       Refusal{{"--solver", "magic"}, 2, "solver \"magic\""},
                       Refusal{{"--evaluator", "magic"}, 2, "--evaluator"},
-                      Refusal{{"--step-pan", "-1"}, 2, "-1"},
+                      Refusal{{"--step-pan", "-1"}, 3, "--step-pan"},
+                      Refusal{{"--time-limit-ms", "1e18"}, 3, "--time-limit-ms"},
                       Refusal{{"another.ot"}, 2, "another.ot"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -32,7 +32,8 @@ struct InsertResult {
 /// the first included (Eq. 9). Occupied wins over free within one scan. A return at or beyond
 /// D_max says the same as no return: its ray is clear up to D_max, the last voxel included
 /// (unless `no_return` is ignore). Throws InputError when the pose is not finite or lies off the
-/// lattice; the map is then untouched.
+/// lattice or the sensor's options are bad, UsageError when colours and points differ in number;
+/// the map is then untouched.
 InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform& T_map_sensor,
                          const SensorOptions& sensor);
 

@@ -51,6 +51,7 @@ class UncertaintyMap {
 
   /// Writes one voxel, whatever it was. `log_odds` decides the state: >= 0 is occupied, as in
   /// OctoMap. u is kept for occupied voxels only. Call finish_writing() after the last one.
+  /// Throws UsageError unless log-odds are finite and u is in [0, 1].
   void set(VoxelKey key, const VoxelRecord& record);
 
   /// Restores the invariants of inner nodes and prunes, after writes by set().
