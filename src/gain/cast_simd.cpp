@@ -101,7 +101,8 @@ struct Axis {
 class Lanes {
  public:
   HWY_INLINE Lanes(const RayWalk& walk, const double* x, const double* y, const double* z)
-      : bricks_(walk.bricks) {
+      : bricks_(walk.bricks),
+        base_(reinterpret_cast<const std::int64_t*>(walk.bricks.code.front())) {
     x_.set_up(x, walk.origin_in_voxel.x());
     y_.set_up(y, walk.origin_in_voxel.y());
     z_.set_up(z, walk.origin_in_voxel.z());
@@ -132,8 +133,9 @@ class Lanes {
     if (!hn::AllTrue(di, hn::Eq(place, place_))) {
       place_ = place;
       const auto* codes = reinterpret_cast<const std::int64_t*>(bricks_.code.data());
-      brick_low_ = hn::GatherIndex(di64, codes, half_of<0>(place));
-      brick_high_ = hn::GatherIndex(di64, codes, half_of<1>(place));
+      const VecI64 base = hn::Set(di64, reinterpret_cast<std::int64_t>(base_));
+      brick_low_ = hn::Sub(hn::GatherIndex(di64, codes, half_of<0>(place)), base);
+      brick_high_ = hn::Sub(hn::GatherIndex(di64, codes, half_of<1>(place)), base);
     }
     // code_index().
     const VecI low_bits = hn::Set(di, 3);
@@ -158,14 +160,13 @@ class Lanes {
   Axis x_, y_, z_;
 
  private:
-  /// Eight bytes from each address; the first is the code.
-  static HWY_INLINE VecI64 gather(VecI64 address) {
-    return hn::GatherOffset(di64, static_cast<const std::int64_t*>(nullptr), address);
-  }
+  /// Eight bytes at each offset from base_; the first is the code.
+  HWY_INLINE VecI64 gather(VecI64 offset) const { return hn::GatherOffset(di64, base_, offset); }
 
   const LocalBricks& bricks_;
+  const std::int64_t* base_;       ///< any brick's codes
   VecI place_;                     ///< of the lanes' bricks in the local table
-  VecI64 brick_low_, brick_high_;  ///< their codes' addresses
+  VecI64 brick_low_, brick_high_;  ///< their codes, as offsets from base_
   int key_x_, key_y_, key_z_;
 };
 
