@@ -241,10 +241,10 @@ TEST(InsertScan, MeasuresTheRangeAlongTheAxisOfTheSensor) {
 }
 
 TEST(InsertScan, IgnoresPointsOffTheLattice) {
-  UncertaintyMap map(0.1);
+  UncertaintyMap map(0.01);
   SensorOptions sensor;
-  sensor.range_max_m = 10000.0;
-  const InsertResult result = insert(map, points({{0, 0, 3276.0F}, {0, 0, 3277.0F}}), sensor);
+  sensor.range_max_m = 1000.0;
+  const InsertResult result = insert(map, points({{0, 0, 327.605F}, {0, 0, 327.705F}}), sensor);
   EXPECT_EQ(result.points_ignored, 1U);
   EXPECT_EQ(result.points_used, 1U);
   EXPECT_EQ(map.at({65528, 32768, 32768}).state, VoxelState::occupied);
