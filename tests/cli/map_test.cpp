@@ -1,0 +1,92 @@
+// `nbvopt map`: counts, conversion and insertion, as a user types them.
+#include <fstream>
+#include <sstream>
+
+#include "cli/command_line.hpp"
+
+namespace nbvopt::test {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+class MapCommand : public CommandLine {
+ protected:
+  MapCommand() {
+    std::ofstream(cloud_file) << "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                                 "property float y\nproperty float z\nend_header\n"
+                                 "0 0 1.5\n0.1 0 1.5\n";
+  }
+
+  /// Inserts the cloud from a camera in the room that looks along x.
+  std::vector<std::string> insertion(const std::string& map) const {
+    return {"map", "insert", map, cloud_file, "--pose", "-1.05,0.05,0.55,-0.5,0.5,-0.5,0.5"};
+  }
+
+  const std::string cloud_file = folder / "cloud.ply";
+};
+
+TEST_F(MapCommand, InfoCountsVoxels) {
+  const nlohmann::json info = nbvopt_json({"map", "info", map_file, "--json"});
+  EXPECT_EQ(info.at("occupied_voxels"), 40 * 15);
+  EXPECT_EQ(info.at("free_voxels"), 39 * 40 * 15);
+  EXPECT_NEAR(info.at("information"), 40 * 15 * 0.2, 1e-3);
+}
+
+TEST_F(MapCommand, ConvertsToEveryFormat) {
+  for (const std::string name : {"room.bt", "copy.ot", "room.ply"}) {
+    EXPECT_EQ(nbvopt_run({"map", "convert", map_file, folder / name}).exit_code, 0) << name;
+  }
+  EXPECT_EQ(nbvopt_run({"map", "convert", map_file, folder / "colour.ot", "--format", "colour-ot"})
+                .exit_code,
+            0);
+  EXPECT_EQ(bytes_of(folder / "copy.ot"), bytes_of(map_file));
+  EXPECT_EQ(bytes_of(folder / "room.ply").substr(0, 4), "ply\n");
+  for (const std::string name : {"room.bt", "colour.ot"}) {
+    EXPECT_EQ(nbvopt_json({"map", "info", folder / name, "--json"}).at("occupied_voxels"), 40 * 15)
+        << name;
+  }
+}
+
+TEST_F(MapCommand, InsertsIntoTheMapOrBesideIt) {
+  const std::string before = bytes_of(map_file);
+  auto beside = insertion(map_file);
+  beside.insert(beside.end(), {"--out", folder / "after.ot"});
+  EXPECT_EQ(nbvopt_run(beside).exit_code, 0);
+  EXPECT_EQ(bytes_of(map_file), before);
+  EXPECT_NE(bytes_of(folder / "after.ot"), before);
+
+  EXPECT_EQ(nbvopt_run(insertion(map_file)).exit_code, 0);
+  EXPECT_EQ(bytes_of(map_file), bytes_of(folder / "after.ot"));
+}
+
+TEST_F(MapCommand, CreatesAMapOnlyWhenAsked) {
+  const std::string file = folder / "new.ot";
+  expect_refusal(nbvopt_run(insertion(file)), 3, "new.ot");
+  auto creating = insertion(file);
+  creating.insert(creating.end(), {"--create", "0.05"});
+  EXPECT_EQ(nbvopt_run(creating).exit_code, 0);
+  EXPECT_GT(nbvopt_json({"map", "info", file, "--json"}).at("occupied_voxels"), 0);
+}
+
+TEST_F(MapCommand, RefusalsLeaveTheMapAsItWas) {
+  const std::string before = bytes_of(map_file);
+  auto bad_pose = insertion(map_file);
+  bad_pose.back() = "0,0,0,0,0,0,0";
+  expect_refusal(nbvopt_run(bad_pose), 3, "length zero");
+  bad_pose.back() = "0,0,nan,0,0,0,1";
+  EXPECT_NE(nbvopt_run(bad_pose).exit_code, 0);
+  expect_refusal(
+      nbvopt_run({"map", "insert", map_file, folder / "none.ply", "--pose", "0,0,0,0,0,0,1"}), 3,
+      "none.ply");
+  auto no_folder = insertion(map_file);
+  no_folder.insert(no_folder.end(), {"--out", folder / "missing/after.ot"});
+  expect_refusal(nbvopt_run(no_folder), 3, "missing");
+  EXPECT_EQ(bytes_of(map_file), before);
+}
+
+}  // namespace
+}  // namespace nbvopt::test
