@@ -11,15 +11,9 @@ Scan simulate_scan(const VoxelGrid& world, const SensorOptions& sensor,
   constexpr double kBehindFace_m = 1e-4;
 
   const CameraRays rays = make_rays(sensor, sensor.horizontal_pixels, sensor.vertical_pixels);
-  const RayBundle bundle{.T_map_rays = T_map_sensor,
-                         .x = rays.x,
-                         .y = rays.y,
-                         .z = rays.z,
-                         .range_min_m = rays.range_min_m,
-                         .range_max_m = rays.range_max_m,
-                         .near_blocking = true};
   RayHits hits;
-  cast_rays(world, bundle, sensor.occupied_uncertainty, hits, SimdLevel::scalar);
+  cast_rays(world, make_bundle(rays, T_map_sensor, true), sensor.occupied_uncertainty, hits,
+            SimdLevel::scalar);
 
   Scan scan;
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -1,8 +1,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
-
 #include "nbvopt/gain/view_evaluator.hpp"
 
 namespace nbvopt {

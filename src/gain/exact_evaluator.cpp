@@ -15,15 +15,8 @@ class ExactEvaluator final : public ViewEvaluator {
   std::string name() const override { return "exact"; }
 
   ViewGain evaluate(const Transform& T_map_sensor) const override {
-    const CameraRays& camera_rays = camera_.rays();
-    RayBundle rays;
-    rays.T_map_rays = T_map_sensor;
-    rays.x = camera_rays.x;
-    rays.y = camera_rays.y;
-    rays.z = camera_rays.z;
-    rays.range_min_m = camera_rays.range_min_m;
-    rays.range_max_m = camera_rays.range_max_m;
-    rays.near_blocking = camera_.options().near_blocking;
+    const RayBundle rays =
+        make_bundle(camera_.rays(), T_map_sensor, camera_.options().near_blocking);
     // Storage of a view's rays, kept a thread: it is as large as the image, not as the map.
     thread_local RayHits hits;
     thread_local GainScratch scratch;

@@ -2,8 +2,8 @@
 // sample and its single core, and must not be made faster.
 #include <cmath>
 
+#include "gain/camera_pose_check.hpp"
 #include "map/uncertainty_octree.hpp"
-#include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
 
@@ -29,12 +29,7 @@ class PaperCodeEvaluator final : public ViewEvaluator {
   std::string name() const override { return "paper-code"; }
 
   ViewGain evaluate(const Transform& T_map_sensor) const override {
-    if (!T_map_sensor.matrix().allFinite()) {
-      throw InputError("the sensor's pose holds a number that is not finite");
-    }
-    if (!map_.lattice().contains(T_map_sensor.translation())) {
-      throw InputError("the camera is off the map's lattice, which spans 65536 voxels an axis");
-    }
+    detail::check_camera_pose(T_map_sensor, map_.lattice());
     ViewGain view;
     for (const Eigen::Vector3d& unit_point : unit_points_) {
       add_ray(T_map_sensor, unit_point, view);

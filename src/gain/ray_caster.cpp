@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "gain/camera_pose_check.hpp"
 #include "gain/ray_walk.hpp"
 #include "map/brick_table.hpp"
-#include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 namespace {
@@ -32,6 +32,8 @@ void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::Local
   local.size_x = box.max.x - box.min.x + 1;
   local.size_y = box.max.y - box.min.y + 1;
   local.size_z = box.max.z - box.min.z + 1;
+  local.brick.reserve(static_cast<std::size_t>(box.size()));
+  local.code.reserve(static_cast<std::size_t>(box.size()));
   const auto collect = [&] {
     local.brick.clear();
     local.code.clear();
@@ -73,6 +75,10 @@ std::int64_t hwy_targets(SimdLevel level) {
 
 }  // namespace
 
+RayBundle make_bundle(const CameraRays& rays, const Transform& T_map_sensor, bool near_blocking) {
+  return {T_map_sensor, rays.x, rays.y, rays.z, rays.range_min_m, rays.range_max_m, near_blocking};
+}
+
 void RayHits::resize(std::size_t n) {
   kind.resize(n);
   face.resize(n);
@@ -113,13 +119,7 @@ std::vector<SimdLevel> supported_simd_levels() {
 
 void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
                RayHits& hits, SimdLevel level) {
-  const Eigen::Vector3d origin_m = rays.T_map_rays.translation();
-  if (!rays.T_map_rays.matrix().allFinite()) {
-    throw InputError("the pose of the rays holds a number that is not finite");
-  }
-  if (!grid.lattice().contains(origin_m)) {
-    throw InputError("the camera is off the map's lattice, which spans 65536 voxels an axis");
-  }
+  detail::check_camera_pose(rays.T_map_rays, grid.lattice());
   hits.resize(rays.size());
   const detail::CasterKernel kernel = level == SimdLevel::scalar
                                           ? detail::scalar_kernel()
@@ -129,7 +129,7 @@ void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_unc
   detail::RayWalk walk;
   walk.rays = &rays;
   walk.resolution_m = grid.lattice().resolution_m();
-  const Eigen::Vector3d origin_lattice = grid.lattice().to_lattice(origin_m);
+  const Eigen::Vector3d origin_lattice = grid.lattice().to_lattice(rays.T_map_rays.translation());
   const Eigen::Vector3d origin_floor = origin_lattice.array().floor();
   walk.origin_key = origin_floor.cast<int>();
   walk.origin_in_voxel = origin_lattice - origin_floor;

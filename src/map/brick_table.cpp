@@ -67,13 +67,12 @@ std::shared_ptr<const BrickStates> with_changes(const BrickStates& before,
                                                 std::span<const VoxelChange> changes) {
   auto states = std::make_shared<BrickStates>(before);
   std::vector<float> uncertainty(kBrickVoxels, kUnknownUncertainty);
-  for (int row = 0; row < kBrickRows; ++row) {
-    for (std::uint32_t left = before.occupied[row]; left != 0; left &= left - 1) {
-      const int x = std::countr_zero(left);
-      const VoxelKey key{static_cast<std::uint16_t>(x),
-                         static_cast<std::uint16_t>(row & kBrickMask),
-                         static_cast<std::uint16_t>(row >> kBrickBits)};
-      uncertainty[row * kBrickSize + x] = before.uncertainty_of_occupied(key, kUnknownUncertainty);
+  if (!before.uncertainty.empty()) {
+    auto next = before.uncertainty.begin();  // in the order of the occupied voxels
+    for (int row = 0; row < kBrickRows; ++row) {
+      for (std::uint32_t left = before.occupied[row]; left != 0; left &= left - 1) {
+        uncertainty[row * kBrickSize + std::countr_zero(left)] = *next++;
+      }
     }
   }
   for (const VoxelChange& change : changes) {

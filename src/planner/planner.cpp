@@ -61,10 +61,9 @@ std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3
   return names;
 }
 
-/// `camera` is the voxel that holds the optical centre where the mast is.
-std::string why_no_gain(const VoxelGrid& grid, VoxelKey camera, const PlanResult& result) {
-  if (grid.state(camera) == VoxelState::occupied) return "the sensor is inside an obstacle";
-  const ViewGain& view = result.view;
+/// `at_camera` is what the optical centre stands in, `view` the best one.
+std::string why_no_gain(VoxelState at_camera, const ViewGain& view) {
+  if (at_camera == VoxelState::occupied) return "the sensor is inside an obstacle";
   if (view.unknown_rays + view.occupied_rays == 0) {
     return "in the best view all rays end in free space or are blocked nearby";
   }
@@ -116,8 +115,9 @@ PlanResult Planner::plan(const PlanRequest& request, const Solver& solver) const
   check(request);
   PlanResult result;
   const JointPosition joints = mast_.clamped(request.joints, result.warnings);
-  grid_->make_ready(reachable_voxels(request, joints));
-  warn_of_map(request, joints, result.warnings);
+  const KeyBox reachable = reachable_voxels(request, joints);
+  grid_->make_ready(reachable);
+  warn_of_map(reachable, state_at_camera(request, joints), result.warnings);
   result.box = search_box(request, joints);
 
   const ViewObjective objective(request, mast_, joints, result.box, *evaluator_);
@@ -148,21 +148,24 @@ void Planner::choose(const PlanRequest& request, const JointPosition& joints,
   result.status = plan_status(solved.status);
   if (is_complete(result.status) && result.view.gain < request.min_gain) {
     result.status = PlanStatus::no_gain_in_reach;
-    const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
-    result.message = "stay: " + why_no_gain(*grid_, grid_->lattice().key(camera_m), result);
+    result.message = "stay: " + why_no_gain(state_at_camera(request, joints), result.view);
     take(joints);
   } else {
     result.message = explain(result);
   }
 }
 
-void Planner::warn_of_map(const PlanRequest& request, const JointPosition& joints,
+VoxelState Planner::state_at_camera(const PlanRequest& request, const JointPosition& joints) const {
+  const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
+  return grid_->state(grid_->lattice().key(camera_m));
+}
+
+void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
                           std::vector<std::string>& warnings) const {
   if (!grid_->has_occupied()) warnings.push_back("the map has no occupied voxel");
-  const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
-  if (!grid_->any_known(reachable_voxels(request, joints))) {
+  if (!grid_->any_known(reachable)) {
     warnings.push_back("nothing in reach of the camera is mapped: the base is outside the map");
-  } else if (grid_->state(grid_->lattice().key(camera_m)) == VoxelState::unknown) {
+  } else if (at_camera == VoxelState::unknown) {
     warnings.push_back("the camera stands in unmapped space: is the base where you think it is?");
   }
   if (grid_->has_occupied() && !grid_->carries_uncertainty()) {
@@ -176,8 +179,7 @@ JointBox Planner::search_box(const PlanRequest& request, const JointPosition& jo
   const auto column_is_occupied = [&](double height_m) {
     JointPosition q = joints;
     q.height_m = height_m;
-    const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, q).translation();
-    return grid_->state(grid_->lattice().key(camera_m)) == VoxelState::occupied;
+    return state_at_camera(request, q) == VoxelState::occupied;
   };
   // Half voxels up and down the mast, as far as the optical centre moves through no obstacle. One
   // that starts inside an obstacle may leave it.

@@ -72,10 +72,10 @@ std::vector<RayHits> hits_around(const VoxelGrid& grid) {
   std::vector<RayHits> all;
   for (const double x_m : {-2.0, 0.05, 1.5}) {
     for (int turn = 0; turn < 8; ++turn) {
-      cast_rays(grid,
-                {camera_at({x_m, 0.3, -0.2}, turn * 0.8, 0.4 * std::cos(turn)), rays.x, rays.y,
-                 rays.z, rays.range_min_m, rays.range_max_m},
-                1.0, all.emplace_back());
+      cast_rays(
+          grid,
+          make_bundle(rays, camera_at({x_m, 0.3, -0.2}, turn * 0.8, 0.4 * std::cos(turn)), true),
+          1.0, all.emplace_back());
     }
   }
   return all;

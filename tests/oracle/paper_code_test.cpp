@@ -12,10 +12,10 @@
 namespace nbvopt {
 namespace {
 
-using testing::oracle_poses;
-using testing::oracle_sensor;
-using testing::read_oracle;
-using testing::shared_dir;
+using test::oracle_poses;
+using test::oracle_sensor;
+using test::read_oracle;
+using test::shared_dir;
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const Eigen::Map<const Eigen::ArrayXd> x(a.data(), static_cast<Eigen::Index>(a.size()));
@@ -61,7 +61,7 @@ TEST_P(PaperCode, GivesTheSameForBaseAndJoints) {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const nlohmann::json& known = oracle_.at("cases").at(i);
     const Transform T_map_sensor =
-        testing::oracle_base(known) * mast.T_base_sensor(testing::oracle_joints(known));
+        test::oracle_base(known) * mast.T_base_sensor(test::oracle_joints(known));
     EXPECT_TRUE(T_map_sensor.isApprox(poses_[i], 1e-9)) << "case " << i;
   }
 }
@@ -81,8 +81,7 @@ TEST_P(PaperCode, NeverHitsBeforeTheExactRay) {
   const CameraRays camera = make_rays(sensor_, sensor_.horizontal_rays, sensor_.vertical_rays);
   RayHits hits;
   for (const Transform& pose : poses_) {
-    const RayBundle rays{pose, camera.x, camera.y, camera.z, camera.range_min_m, camera.range_max_m,
-                         false};
+    const RayBundle rays = make_bundle(camera, pose, false);
     cast_rays(*grid, rays, 1.0, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Eigen::Vector3d unit_depth = camera.direction(i) / camera.z[i];

@@ -8,6 +8,7 @@
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
+#include "nbvopt/sensor/depth_camera.hpp"
 
 namespace nbvopt {
 
@@ -32,6 +33,9 @@ struct RayBundle {
 
   std::size_t size() const { return x.size(); }
 };
+
+/// A camera's rays from T_map_sensor. The bundle looks into `rays`, which must outlive it.
+RayBundle make_bundle(const CameraRays& rays, const Transform& T_map_sensor, bool near_blocking);
 
 /// What the rays met, structure of arrays. The storage is reused: keep one a thread.
 struct RayHits {

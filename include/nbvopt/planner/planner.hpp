@@ -89,7 +89,9 @@ class Planner {
   /// Fills the answer from what the solver found.
   void choose(const PlanRequest& request, const JointPosition& joints,
               const ViewObjective& objective, const SolveResult& solved, PlanResult& result) const;
-  void warn_of_map(const PlanRequest& request, const JointPosition& joints,
+  /// The state of the voxel that holds the optical centre.
+  VoxelState state_at_camera(const PlanRequest& request, const JointPosition& joints) const;
+  void warn_of_map(const KeyBox& reachable, VoxelState at_camera,
                    std::vector<std::string>& warnings) const;
 
   Mast mast_;
