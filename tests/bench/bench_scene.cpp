@@ -11,20 +11,20 @@ namespace nbvopt::bench {
 namespace {
 
 BenchScene make_aslam_lab() {
-  const nlohmann::json views = testing::read_oracle("ASLAM_lab.json");
-  const nlohmann::json queries = testing::read_oracle("ASLAM_lab_optima.json");
-  const std::filesystem::path file = testing::shared_dir() / "maps" / "ASLAM_lab.bt";
+  const nlohmann::json views = test::read_oracle("ASLAM_lab.json");
+  const nlohmann::json queries = test::read_oracle("ASLAM_lab_optima.json");
+  const std::filesystem::path file = test::shared_dir() / "maps" / "ASLAM_lab.bt";
   BenchScene scene{.name = "ASLAM_lab",
                    .map_file = file,
                    .map = read_map(file),
-                   .paper_code_sensor = testing::oracle_sensor(views),
-                   .poses_T_map_sensor = testing::oracle_poses(views),
-                   .robot = {.sensor = testing::oracle_sensor(queries), .mast = {}},
+                   .paper_code_sensor = test::oracle_sensor(views),
+                   .poses_T_map_sensor = test::oracle_poses(views),
+                   .robot = {.sensor = test::oracle_sensor(queries), .mast = {}},
                    .requests = {}};
   for (const nlohmann::json& known : queries.at("cases")) {
     PlanRequest request;
-    request.T_map_base = testing::oracle_base(known);
-    request.joints = testing::oracle_joints(known);
+    request.T_map_base = test::oracle_base(known);
+    request.joints = test::oracle_joints(known);
     request.motion_time_s = known.at("time_budget_s");
     scene.requests.push_back(request);
   }
@@ -81,7 +81,7 @@ BenchScene make_office_partial() {
 
 std::vector<std::shared_ptr<const BenchScene>> make_bench_scenes() {
   std::vector<std::shared_ptr<const BenchScene>> scenes;
-  if (std::filesystem::exists(testing::shared_dir() / "oracle")) {
+  if (std::filesystem::exists(test::shared_dir() / "oracle")) {
     scenes.push_back(std::make_shared<BenchScene>(make_aslam_lab()));
   }
   scenes.push_back(std::make_shared<BenchScene>(make_office_partial()));

@@ -142,10 +142,10 @@ class RecordedGains : public ::testing::TestWithParam<std::pair<const char*, con
 TEST_P(RecordedGains, AreReproducedByThePaperCode) {
   NBVOPT_REQUIRE_SHARED();
   const auto [oracle, map] = GetParam();
-  const json recorded = nbvopt::testing::read_oracle(oracle)["cases"];
-  const json found = nbvopt_json({"evaluate", nbvopt::testing::shared_dir() / "maps" / map,
-                                  "--poses", nbvopt::testing::shared_dir() / "oracle" / oracle,
-                                  "--evaluator", "paper-code"})["cases"];
+  const json recorded = nbvopt::test::read_oracle(oracle)["cases"];
+  const json found = nbvopt_json({"evaluate", nbvopt::test::shared_dir() / "maps" / map, "--poses",
+                                  nbvopt::test::shared_dir() / "oracle" / oracle, "--evaluator",
+                                  "paper-code"})["cases"];
   ASSERT_EQ(found.size(), recorded.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double gain = recorded[i]["gain"];

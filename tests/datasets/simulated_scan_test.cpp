@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/camera_pose.hpp"
+
 namespace nbvopt {
 namespace {
 
@@ -16,13 +18,8 @@ SensorOptions small_sensor() {
   return sensor;
 }
 
-/// A camera at (0.05, 0.05, 0.05) that looks along map x.
-Transform looking_along_x() {
-  Transform T_map_sensor = Transform::Identity();
-  T_map_sensor.linear() = rotation_body_sensor();
-  T_map_sensor.translation() = Eigen::Vector3d::Constant(0.05);
-  return T_map_sensor;
-}
+/// A camera in the middle of a voxel that looks along map x.
+Transform looking_along_x() { return test::camera_at(Eigen::Vector3d::Constant(0.05)); }
 
 /// Free space within 6 m of the origin; where x >= wall_x_m, a wall.
 std::shared_ptr<const VoxelGrid> world_with_wall(double wall_x_m) {

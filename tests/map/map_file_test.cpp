@@ -331,7 +331,7 @@ TEST_F(DamagedMap, HasBadValues) {
 class SharedMaps : public ::testing::Test {
  protected:
   static std::filesystem::path map(const std::string& name) {
-    return testing::shared_dir() / "maps" / name;
+    return test::shared_dir() / "maps" / name;
   }
 };
 

@@ -12,6 +12,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
+#include "support/camera_pose.hpp"
 #include "support/error_message.hpp"
 
 namespace nbvopt {
@@ -30,10 +31,7 @@ const float kMaxLogOdds = std::log(0.971F / 0.029F);
 
 /// The camera stands in the middle of a voxel and looks along map x.
 Transform looking_along_x(const Eigen::Vector3d& position_m = {0.05, 0.05, 0.05}) {
-  Transform T_map_sensor = Transform::Identity();
-  T_map_sensor.translate(position_m);
-  T_map_sensor.rotate(rotation_body_sensor());
-  return T_map_sensor;
+  return test::camera_at(position_m);
 }
 
 /// The voxel `steps` voxels along x from the one of looking_along_x(), at 0.1 m.

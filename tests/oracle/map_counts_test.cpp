@@ -18,7 +18,7 @@ class MapCountsOracle : public ::testing::TestWithParam<Known> {};
 TEST_P(MapCountsOracle, AreThoseOfTheReadme) {
   NBVOPT_REQUIRE_SHARED();
   const Known& known = GetParam();
-  const MapCounts counts = read_map(testing::shared_dir() / "maps" / known.file).counts();
+  const MapCounts counts = read_map(test::shared_dir() / "maps" / known.file).counts();
   EXPECT_EQ(counts.occupied_voxels, known.occupied);
   EXPECT_EQ(counts.free_voxels, known.free);
   EXPECT_EQ(counts.certain_voxels, known.certain);

@@ -18,11 +18,11 @@ class Optima : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Optima, AreReproduced) {
   NBVOPT_REQUIRE_SHARED();
-  const nlohmann::json oracle = testing::read_oracle(std::string(GetParam()) + "_optima.json");
+  const nlohmann::json oracle = test::read_oracle(std::string(GetParam()) + "_optima.json");
   Robot robot;
-  robot.sensor = testing::oracle_sensor(oracle);
+  robot.sensor = test::oracle_sensor(oracle);
   const UncertaintyMap map =
-      read_map(testing::shared_dir() / "maps" / oracle.at("map").get<std::string>());
+      read_map(test::shared_dir() / "maps" / oracle.at("map").get<std::string>());
   const auto grid = VoxelGrid::lazy(map);
   const std::shared_ptr<const ViewEvaluator> exact =
       make_exact_evaluator(grid, DepthCamera(robot.sensor));
@@ -32,8 +32,8 @@ TEST_P(Optima, AreReproduced) {
   const Mast mast(robot.mast);
   for (const nlohmann::json& known : oracle.at("cases")) {
     PlanRequest request;
-    request.T_map_base = testing::oracle_base(known);
-    request.joints = testing::oracle_joints(known);
+    request.T_map_base = test::oracle_base(known);
+    request.joints = test::oracle_joints(known);
     request.motion_time_s = known.at("time_budget_s");
     const PlanResult result = planner.plan(request, *pan_grid);
     const double current = known.at("current_gain");
@@ -41,7 +41,7 @@ TEST_P(Optima, AreReproduced) {
     const double best = known.at("best_gain");
     EXPECT_NEAR(result.current.gain, current, tolerance(current)) << known;
     EXPECT_NEAR(result.view.gain, best_of_grid, tolerance(best_of_grid)) << known;
-    const JointPosition best_joints = testing::oracle_joints(known.at("best"));
+    const JointPosition best_joints = test::oracle_joints(known.at("best"));
     EXPECT_NEAR(exact->evaluate(T_map_sensor(request, mast, best_joints)).gain, best,
                 tolerance(best))
         << known;

@@ -13,13 +13,13 @@
 #include "nbvopt/mast/mast.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
 
-namespace nbvopt::testing {
+namespace nbvopt::test {
 
 inline std::filesystem::path shared_dir() { return NBVOPT_SHARED_DIR; }
 
 /// Skips the test, saying so, where the shared maps and oracles are not there.
-#define NBVOPT_REQUIRE_SHARED()                                             \
-  if (!std::filesystem::exists(::nbvopt::testing::shared_dir() / "oracle")) \
+#define NBVOPT_REQUIRE_SHARED()                                          \
+  if (!std::filesystem::exists(::nbvopt::test::shared_dir() / "oracle")) \
   GTEST_SKIP() << "the maps and known answers of ../shared are not here, so this was not tested"
 
 inline nlohmann::json read_oracle(const std::string& name) {
@@ -66,4 +66,4 @@ inline std::vector<Transform> oracle_poses(const nlohmann::json& oracle) {
   return poses;
 }
 
-}  // namespace nbvopt::testing
+}  // namespace nbvopt::test
