@@ -9,20 +9,13 @@
 
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/mast/mast.hpp"
+#include "nbvopt/mast/moving_mast.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/solver/solver.hpp"
 
 namespace nbvopt {
 
 class ViewObjective;
-
-/// The base's velocity in its own frame. Only zero is supported by now.
-struct BaseTwist {
-  double vx_m_s = 0.0;
-  double vy_m_s = 0.0;
-  double wz_rad_s = 0.0;
-};
 
 /// One question. Born with NaN where there is no sensible default.
 struct PlanRequest {

@@ -40,6 +40,14 @@ class Objective {
   /// Decides between points of equal value: the lower cost wins. For a mast, the motion.
   virtual double tie_cost(const Point& /*x*/) const { return 0.0; }
 
+  /// The period of a coordinate that turns: x and x + period are the same point, and the box is
+  /// exactly one period wide. 0 for any other.
+  virtual double period(Eigen::Index /*coordinate*/) const { return 0.0; }
+
+  /// A cheaper objective over the same box with nearly the same values, smooth if need be, or null.
+  /// It may have one of its own, cheaper still.
+  virtual const Objective* surrogate() const { return nullptr; }
+
   virtual bool has_gradient() const { return false; }
 
   /// The value, and its gradient in `gradient`. Only where has_gradient().

@@ -27,6 +27,7 @@ std::string to_string(SolveStatus status);
 struct SolverNeeds {
   bool gradient = false;
   bool residuals = false;
+  bool surrogate = false;
 };
 
 /// One search: where it starts, when it stops, its seed. Without an evaluation limit every solver
@@ -43,7 +44,8 @@ struct SolveResult {
   std::string message = "the solver was not called";
   Point best;
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t evaluations = 0;
+  std::int64_t evaluations = 0;            ///< of the objective
+  std::int64_t surrogate_evaluations = 0;  ///< of its surrogates, by strategies
 };
 
 /// A maximiser over a box. The answer lies in the box, is never worse than the start nor than any
