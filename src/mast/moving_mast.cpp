@@ -1,0 +1,69 @@
+#include "nbvopt/mast/moving_mast.hpp"
+
+#include <cmath>
+
+namespace nbvopt {
+namespace {
+
+/// sin(x) / x; exact to rounding for every x but 0.
+double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
+
+/// The pose, seen from where it started, of a base that keeps its velocity for a time.
+Transform driven(const BaseTwist& twist, double time_s) {
+  const double turn_rad = twist.wz_rad_s * time_s;
+  const Eigen::Vector3d path_m = Eigen::Vector3d(twist.vx_m_s, twist.vy_m_s, 0.0) * time_s;
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  // The chord of the arc: turned by half the turn, and shorter than the path by sinc of it.
+  Transform T_start_end = Transform::Identity();
+  T_start_end.translation() =
+      sinc(0.5 * turn_rad) * (Eigen::AngleAxisd(0.5 * turn_rad, z) * path_m);
+  T_start_end.linear() = Eigen::AngleAxisd(turn_rad, z).toRotationMatrix();
+  return T_start_end;
+}
+
+}  // namespace
+
+MovingMast::MovingMast(const Mast& mast, const Transform& T_map_base, const BaseTwist& base_twist,
+                       const JointPosition& joints)
+    : mast_(mast), T_map_base_(T_map_base), base_twist_(base_twist), joints_(joints) {}
+
+Transform MovingMast::T_map_base(double time_s) const {
+  if (base_twist_.is_zero()) return T_map_base_;
+  return T_map_base_ * driven(base_twist_, time_s);
+}
+
+Transform MovingMast::T_map_sensor(const JointPosition& q) const {
+  const Transform T_base_sensor = mast_.T_base_sensor(q);
+  if (base_twist_.is_zero()) return T_map_base_ * T_base_sensor;
+  return T_map_base(arrival_time_s(q)) * T_base_sensor;
+}
+
+SensorMotion MovingMast::sensor_motion(const JointPosition& q) const {
+  const Transform T_base_sensor = mast_.T_base_sensor(q);
+  const Eigen::Matrix3d R_sensor_base = T_base_sensor.linear().transpose();
+  const Eigen::Vector3d p_base = T_base_sensor.translation();
+  const Eigen::Vector3d lever_base = p_base - Eigen::Vector3d(0.0, 0.0, q.height_m);
+  const Eigen::Vector3d z_base = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d right_sensor = Eigen::Vector3d::UnitX();  // the axis that tilt turns about
+
+  SensorMotion motion;
+  motion.angular = {R_sensor_base * z_base, right_sensor, Eigen::Vector3d::Zero()};
+  motion.linear = {R_sensor_base * z_base.cross(p_base),
+                   right_sensor.cross(R_sensor_base * lever_base), R_sensor_base * z_base};
+  if (base_twist_.is_zero()) return motion;
+
+  // The slowest joint alone decides when the base stops counting.
+  const Eigen::Vector3d way = q.vector() - joints_.vector();
+  Eigen::Index slowest = 0;
+  (way.cwiseAbs().array() / mast_.velocity().array()).maxCoeff(&slowest);
+  const double time_per_joint = std::copysign(1.0, way[slowest]) / mast_.velocity()[slowest];
+  const Eigen::Vector3d turn_base = base_twist_.wz_rad_s * z_base;
+  const Eigen::Vector3d velocity_base =
+      Eigen::Vector3d(base_twist_.vx_m_s, base_twist_.vy_m_s, 0.0) + turn_base.cross(p_base);
+  const auto joint = static_cast<std::size_t>(slowest);
+  motion.angular[joint] += time_per_joint * (R_sensor_base * turn_base);
+  motion.linear[joint] += time_per_joint * (R_sensor_base * velocity_base);
+  return motion;
+}
+
+}  // namespace nbvopt
