@@ -130,7 +130,7 @@ void run_query(const QueryOptions& options) {
   const std::shared_ptr<const ViewEvaluator> evaluator =
       make_evaluator(options.view.evaluator, map, grid, robot.sensor);
   const Planner planner(robot, grid, evaluator);
-  grid->make_ready(planner.reachable_voxels(answer.request, answer.request.joints));
+  grid->make_ready(planner.reachable_voxels(answer.request));
   answer.grid_ms = filling.elapsed_ms();
   answer.result = planner.plan(answer.request, *solver);
   answer.result.warnings.insert(answer.result.warnings.begin(), warnings.begin(), warnings.end());

@@ -5,6 +5,8 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "planner/plan_message.hpp"
+#include "planner/search_trace.hpp"
 #include "planner/view_objective.hpp"
 
 namespace nbvopt {
@@ -19,8 +21,8 @@ void check(const PlanRequest& request) {
                      " s, it must be 0 (no limit) or more");
   }
   const BaseTwist& twist = request.base_twist;
-  if (twist.vx_m_s != 0.0 || twist.vy_m_s != 0.0 || twist.wz_rad_s != 0.0) {
-    throw InputError("base_twist: only a base at rest is supported, give zeros");
+  if (!Eigen::Vector3d(twist.vx_m_s, twist.vy_m_s, twist.wz_rad_s).allFinite()) {
+    throw InputError("base_twist: every velocity must be finite");
   }
 }
 
@@ -61,21 +63,8 @@ std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3
   return names;
 }
 
-/// `at_camera` is what the optical centre stands in, `view` the best one.
-std::string why_no_gain(VoxelState at_camera, const ViewGain& view) {
-  if (at_camera == VoxelState::occupied) return "the sensor is inside an obstacle";
-  if (view.unknown_rays + view.occupied_rays == 0) {
-    return "in the best view all rays end in free space or are blocked nearby";
-  }
-  return "what the best view would see is known well enough";
-}
-
-std::string explain(const PlanResult& result) {
-  const double more = result.view.gain - result.current.gain;
-  const std::string gains = "gain " + format_number(std::round(result.view.gain * 10) / 10);
-  if (more <= 0.0) return "stay: no evaluated view is better, " + gains;
-  return "move: " + gains + ", " + format_number(std::round(more * 10) / 10) + " more than staying";
-}
+/// How fast the base's origin moves, m/s.
+double speed_m_s(const BaseTwist& twist) { return std::hypot(twist.vx_m_s, twist.vy_m_s); }
 
 }  // namespace
 
@@ -99,8 +88,12 @@ std::string to_string(PlanStatus status) {
   return "?";
 }
 
+MovingMast moving_mast(const PlanRequest& request, const Mast& mast) {
+  return {mast, request.T_map_base, request.base_twist, request.joints};
+}
+
 Transform T_map_sensor(const PlanRequest& request, const Mast& mast, const JointPosition& joints) {
-  return request.T_map_base * mast.T_base_sensor(joints);
+  return moving_mast(request, mast).T_map_sensor(joints);
 }
 
 Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
@@ -110,22 +103,28 @@ Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
       grid_(std::move(grid)),
       evaluator_(std::move(evaluator)) {}
 
-PlanResult Planner::plan(const PlanRequest& request, const Solver& solver) const {
+PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   const auto begin = StopRule::Clock::now();
-  check(request);
+  check(asked);
   PlanResult result;
-  const JointPosition joints = mast_.clamped(request.joints, result.warnings);
-  const KeyBox reachable = reachable_voxels(request, joints);
+  PlanRequest request = asked;
+  request.joints = mast_.clamped(asked.joints, result.warnings);
+  const MovingMast mast = moving_mast(request, mast_);
+  const KeyBox reachable = reachable_voxels(request);
   grid_->make_ready(reachable);
-  warn_of_map(reachable, state_at_camera(request, joints), result.warnings);
-  result.box = search_box(request, joints);
+  warn_of_map(reachable, state_at_camera(mast, request.joints), result.warnings);
+  result.box = search_box(request);
 
-  const ViewObjective objective(request, mast_, joints, result.box, *evaluator_);
-  const SolveResult solved = solver.solve(objective, {joints.vector(), request.stop, request.seed});
-  result.current = objective.view(joints.vector());
-  choose(request, joints, objective, solved, result);
+  const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
+  const ViewObjective objective(mast, result.box, *evaluator_, trace.get());
+  const SolveResult solved =
+      solver.solve(objective, {request.joints.vector(), request.stop, request.seed});
+  result.current = objective.view(request.joints.vector());
+  choose(request, mast, objective, solved, result);
 
   result.evaluations = objective.evaluations();
+  result.surrogate_evaluations = solved.surrogate_evaluations;
+  if (trace) result.trace = trace->points();
   result.solver = solver.name();
   result.seed = request.seed;
   result.map_version = grid_->version();
@@ -134,30 +133,30 @@ PlanResult Planner::plan(const PlanRequest& request, const Solver& solver) const
   return result;
 }
 
-void Planner::choose(const PlanRequest& request, const JointPosition& joints,
+void Planner::choose(const PlanRequest& request, const MovingMast& mast,
                      const ViewObjective& objective, const SolveResult& solved,
                      PlanResult& result) const {
   const auto take = [&](const JointPosition& q) {
     result.joints = q;
     result.view = objective.view(q.vector());
-    result.T_map_sensor = T_map_sensor(request, mast_, q);
-    result.move_time_s = mast_.move_time_s(joints, q);
+    result.move_time_s = mast.arrival_time_s(q);
+    result.T_map_base = mast.T_map_base(result.move_time_s);
+    result.T_map_sensor = mast.T_map_sensor(q);
     result.active_bounds = active_bounds(result.box, q.vector());
   };
   take(JointPosition::from(solved.best));
   result.status = plan_status(solved.status);
   if (is_complete(result.status) && result.view.gain < request.min_gain) {
     result.status = PlanStatus::no_gain_in_reach;
-    result.message = "stay: " + why_no_gain(state_at_camera(request, joints), result.view);
-    take(joints);
+    result.message = no_gain_message(state_at_camera(mast, request.joints), result.view);
+    take(request.joints);
   } else {
-    result.message = explain(result);
+    result.message = gain_message(result);
   }
 }
 
-VoxelState Planner::state_at_camera(const PlanRequest& request, const JointPosition& joints) const {
-  const Eigen::Vector3d camera_m = T_map_sensor(request, mast_, joints).translation();
-  return grid_->state(grid_->lattice().key(camera_m));
+VoxelState Planner::state_at_camera(const MovingMast& mast, const JointPosition& joints) const {
+  return grid_->state(grid_->lattice().key(mast.T_map_sensor(joints).translation()));
 }
 
 void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
@@ -174,16 +173,20 @@ void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
   }
 }
 
-JointBox Planner::search_box(const PlanRequest& request, const JointPosition& joints) const {
+JointBox Planner::search_box(const PlanRequest& request) const {
+  const MovingMast mast = moving_mast(request, mast_);
+  const JointPosition& joints = request.joints;
   JointBox box = mast_.reachable_box(joints, request.motion_time_s);
   const auto column_is_occupied = [&](double height_m) {
     JointPosition q = joints;
     q.height_m = height_m;
-    return state_at_camera(request, q) == VoxelState::occupied;
+    return state_at_camera(mast, q) == VoxelState::occupied;
   };
-  // Half voxels up and down the mast, as far as the optical centre moves through no obstacle. One
-  // that starts inside an obstacle may leave it.
-  const double step_m = 0.5 * grid_->lattice().resolution_m();
+  // Half voxels along the way of the optical centre, as far as it moves through no obstacle. One
+  // that starts inside an obstacle may leave it. A moving base lengthens the way.
+  const double way_per_height =
+      1.0 + speed_m_s(request.base_twist) / mast_.options().height_velocity_m_s;
+  const double step_m = 0.5 * grid_->lattice().resolution_m() / way_per_height;
   const auto reach = [&](double limit_m, double direction) {
     bool inside = column_is_occupied(joints.height_m);
     double free_m = joints.height_m;
@@ -204,8 +207,18 @@ JointBox Planner::search_box(const PlanRequest& request, const JointPosition& jo
   return box;
 }
 
-KeyBox Planner::reachable_voxels(const PlanRequest& request, const JointPosition& joints) const {
-  const JointBox box = mast_.reachable_box(joints, request.motion_time_s);
+KeyBox Planner::reachable_voxels(const PlanRequest& request) const {
+  const MovingMast mast = moving_mast(request, mast_);
+  const JointBox box = mast_.reachable_box(request.joints, request.motion_time_s);
+  const double longest_s = std::max(mast.arrival_time_s(JointPosition::from(box.min)),
+                                    mast.arrival_time_s(JointPosition::from(box.max)));
+  const double drive_m = speed_m_s(request.base_twist) * longest_s;
+  constexpr double kLongestDrive_m = 100.0;  // a slip of the unit lies beyond it
+  if (!(drive_m <= kLongestDrive_m)) {
+    throw InputError("base_twist: the base would drive " + format_number(drive_m) +
+                     " m while the joints move, at most 100 m can be predicted");
+  }
+
   const double lever_m = mast_.options().sensor_offset_m.norm();
   // Along the optical axis, the corner of the image is farther away than the range.
   const double tan_h = std::tan(sensor_.half_fov_horizontal_rad);
@@ -213,14 +226,20 @@ KeyBox Planner::reachable_voxels(const PlanRequest& request, const JointPosition
   const double stretch = sensor_.range_axis == RangeAxis::z_depth
                              ? std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v)
                              : 1.0;
-  const double radius_m = lever_m + stretch * sensor_.range_max_m + grid_->lattice().resolution_m();
-  const auto mast_top = [&](double height_m) {
-    return Eigen::Vector3d(request.T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
-  };
-  const Eigen::Vector3d low = mast_top(box.min[2]).cwiseMin(mast_top(box.max[2]));
-  const Eigen::Vector3d high = mast_top(box.min[2]).cwiseMax(mast_top(box.max[2]));
-  return {grid_->lattice().key(low - Eigen::Vector3d::Constant(radius_m)),
-          grid_->lattice().key(high + Eigen::Vector3d::Constant(radius_m))};
+  // The drive in pieces: no point of a piece is farther from its middle than half its length.
+  constexpr double kPiece_m = 0.5;
+  const double pieces = std::max(1.0, std::ceil(drive_m / kPiece_m));
+  const double radius_m = lever_m + stretch * sensor_.range_max_m +
+                          grid_->lattice().resolution_m() + 0.5 * drive_m / pieces;
+  Eigen::AlignedBox3d mast_tops;
+  for (double piece = 0.5; piece < pieces; ++piece) {
+    const Transform T_map_base = mast.T_map_base(longest_s * piece / pieces);
+    for (const double height_m : {box.min[2], box.max[2]}) {
+      mast_tops.extend(T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
+    }
+  }
+  return {grid_->lattice().key(mast_tops.min() - Eigen::Vector3d::Constant(radius_m)),
+          grid_->lattice().key(mast_tops.max() + Eigen::Vector3d::Constant(radius_m))};
 }
 
 }  // namespace nbvopt

@@ -2,36 +2,25 @@
 
 namespace nbvopt {
 
-ViewObjective::ViewObjective(const PlanRequest& request, const Mast& mast,
-                             const JointPosition& joints, const JointBox& box,
-                             const ViewEvaluator& evaluator)
-    : request_(request),
-      mast_(mast),
-      joints_(joints),
-      box_{box.min, box.max},
-      evaluator_(evaluator) {}
+ViewObjective::ViewObjective(const MovingMast& mast, const JointBox& box,
+                             const ViewEvaluator& evaluator, SearchTrace* trace)
+    : mast_(mast), box_{box.min, box.max}, evaluator_(evaluator), trace_(trace) {}
 
-double ViewObjective::value(const Point& x) const {
-  const ViewGain view = evaluator_.evaluate(pose(x));
-  ++evaluations_;
-  remember(x, view);
-  return view.gain;
-}
+double ViewObjective::value(const Point& x) const { return evaluate(x).gain; }
 
 void ViewObjective::values(std::span<const Point> points, std::span<double> values) const {
   std::vector<Transform> poses;
   poses.reserve(points.size());
   for (const Point& x : points) poses.push_back(pose(x));
   const std::vector<ViewGain> views = evaluate_views(evaluator_, poses);
-  evaluations_ += static_cast<std::int64_t>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    remember(points[i], views[i]);
+    note(points[i], views[i]);
     values[i] = views[i].gain;
   }
 }
 
 double ViewObjective::tie_cost(const Point& x) const {
-  return mast_.move_time_s(joints_, JointPosition::from(x));
+  return mast_.arrival_time_s(JointPosition::from(x));
 }
 
 ViewGain ViewObjective::view(const Point& x) const {
@@ -41,17 +30,24 @@ ViewGain ViewObjective::view(const Point& x) const {
       if (*remembered && (*remembered)->point == x) return (*remembered)->view;
     }
   }
-  ++evaluations_;
-  return evaluator_.evaluate(pose(x));
+  return evaluate(x);
+}
+
+ViewGain ViewObjective::evaluate(const Point& x) const {
+  const ViewGain view = evaluator_.evaluate(pose(x));
+  note(x, view);
+  return view;
 }
 
 Transform ViewObjective::pose(const Point& x) const {
-  return T_map_sensor(request_, mast_, JointPosition::from(x));
+  return mast_.T_map_sensor(JointPosition::from(x));
 }
 
-void ViewObjective::remember(const Point& x, const ViewGain& view) const {
+void ViewObjective::note(const Point& x, const ViewGain& view) const {
+  ++evaluations_;
+  if (trace_ != nullptr) trace_->record(EvaluationKind::exact, JointPosition::from(x), view.gain);
   const std::scoped_lock lock(mutex_);
-  if (x == joints_.vector()) start_ = {x, view};
+  if (x == mast_.joints().vector()) start_ = {x, view};
   const bool is_better = !best_ || view.gain > best_->view.gain ||
                          (view.gain == best_->view.gain && tie_cost(x) < tie_cost(best_->point));
   if (is_better) best_ = {x, view};

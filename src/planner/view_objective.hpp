@@ -6,21 +6,23 @@
 #include <optional>
 
 #include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/mast/moving_mast.hpp"
 #include "nbvopt/solver/objective.hpp"
+#include "planner/search_trace.hpp"
 
 namespace nbvopt {
 
-/// gain(pan, tilt, height) of one request. Counts its evaluations and remembers the last views, so
-/// that the answer's view is not evaluated twice. Thread-safe.
+/// gain(pan, tilt, height) once the joints have arrived. Counts its evaluations and remembers the
+/// last views, so that the answer's view is not evaluated twice. Thread-safe.
 class ViewObjective final : public Objective {
  public:
-  /// All references must outlive the objective. `joints` is where the mast is.
-  ViewObjective(const PlanRequest& request, const Mast& mast, const JointPosition& joints,
-                const JointBox& box, const ViewEvaluator& evaluator);
+  /// All references must outlive the objective. `trace` may be null: nothing is recorded.
+  ViewObjective(const MovingMast& mast, const JointBox& box, const ViewEvaluator& evaluator,
+                SearchTrace* trace = nullptr);
 
   const Box& box() const override { return box_; }
   double value(const Point& x) const override;
+  /// On all cores; recorded in the order of the points.
   void values(std::span<const Point> points, std::span<double> values) const override;
   double tie_cost(const Point& x) const override;
 
@@ -35,14 +37,15 @@ class ViewObjective final : public Objective {
     ViewGain view;
   };
 
+  ViewGain evaluate(const Point& x) const;
   Transform pose(const Point& x) const;
-  void remember(const Point& x, const ViewGain& view) const;
+  /// Counts, records and remembers an evaluation.
+  void note(const Point& x, const ViewGain& view) const;
 
-  const PlanRequest& request_;
-  const Mast& mast_;
-  JointPosition joints_;
+  const MovingMast& mast_;
   Box box_;
   const ViewEvaluator& evaluator_;
+  SearchTrace* trace_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;
   mutable std::mutex mutex_;
   mutable std::optional<Remembered> start_;  ///< where the mast is

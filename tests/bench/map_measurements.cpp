@@ -42,7 +42,7 @@ void add_map_measurements(const std::shared_ptr<const BenchScene>& scene,
     const PlanRequest& request = scene->requests[i];
     return seconds_of([&] {
       const auto query_grid = VoxelGrid::lazy(scene->map);
-      query_grid->make_ready(planner->reachable_voxels(request, request.joints));
+      query_grid->make_ready(planner->reachable_voxels(request));
     });
   };
   const auto read = [scene](std::size_t) {

@@ -196,7 +196,7 @@ TEST(Planner, TurnsAcrossTheSeamOfPan) {
 TEST(Planner, HasNoLimitWithoutAMotionTime) {
   const World world(free_cube());
   const PlanRequest request = request_at({10.0, 0.5, 0.3}, 0.0);
-  const JointBox box = world.planner().search_box(request, request.joints);
+  const JointBox box = world.planner().search_box(request);
   EXPECT_EQ(box.min, Eigen::Vector3d(10.0 - kPi, -0.79, 0.18));
   EXPECT_EQ(box.max, Eigen::Vector3d(10.0 + kPi, 0.79, 0.63));
 }
@@ -294,7 +294,7 @@ class HeightBox : public ::testing::Test {
       }
     }));
     const PlanRequest request = request_at({0.0, 0.0, height_m}, 0.0);
-    return world.planner().search_box(request, request.joints);
+    return world.planner().search_box(request);
   }
 };
 
@@ -307,7 +307,7 @@ TEST_F(HeightBox, IsNotCutByTheUnknown) {
   UncertaintyMap map(0.1);
   map.set(map.lattice().key({0.03, 0.02, 0.41}), kFree);
   map.finish_writing();
-  const JointBox box = World(map).planner().search_box(request_at(kMiddle, 0.0), kMiddle);
+  const JointBox box = World(map).planner().search_box(request_at(kMiddle, 0.0));
   EXPECT_EQ(box.min[2], 0.18);
   EXPECT_EQ(box.max[2], 0.63);
 }
@@ -358,7 +358,7 @@ TEST(Planner, CutsNoPanOrTiltAtAnObstacle) {
     map.set(map.lattice().key({0.03, 0.02, 0.55}), occupied(1.0F));
   }));
   const PlanRequest request = request_at(kMiddle, 0.3);
-  const JointBox box = world.planner().search_box(request, kMiddle);
+  const JointBox box = world.planner().search_box(request);
   const JointBox reachable = Mast(world.robot.mast).reachable_box(kMiddle, 0.3);
   EXPECT_EQ(box.min.head<2>(), reachable.min.head<2>());
   EXPECT_EQ(box.max.head<2>(), reachable.max.head<2>());
@@ -405,7 +405,7 @@ TEST(Planner, RefusesARequestThatIsNotUsable) {
   EXPECT_THAT(message([](auto& r) { r.joints.pan_rad = kNan; }), HasSubstr("pan is nan rad"));
   EXPECT_THAT(message([](auto& r) { r.joints.tilt_rad = 0.81; }), HasSubstr("tilt is 0.81 rad"));
   EXPECT_THAT(message([](auto& r) { r.joints.height_m = 0.17; }), HasSubstr("height is 0.17 m"));
-  EXPECT_THAT(message([](auto& r) { r.base_twist.vx_m_s = 0.1; }), HasSubstr("base_twist"));
+  EXPECT_THAT(message([](auto& r) { r.base_twist.wz_rad_s = kNan; }), HasSubstr("base_twist"));
   EXPECT_THAT(message([](auto& r) { r.T_map_base.translation().x() = 1e300; }),
               HasSubstr("lattice"));
 }
@@ -454,7 +454,7 @@ TEST(Planner, ReachesEveryVoxelThatAViewCanTouch) {
   const World world(free_cube());
   std::mt19937_64 random(9);
   const PlanRequest request = request_at(kMiddle, 0.3);
-  const KeyBox touched = world.planner().reachable_voxels(request, kMiddle);
+  const KeyBox touched = world.planner().reachable_voxels(request);
   const JointBox box = Mast(world.robot.mast).reachable_box(kMiddle, 0.3);
   const CameraRays rays = DepthCamera(world.robot.sensor).rays();
   for (int i = 0; i < 100; ++i) {
