@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string_view>
 #include <type_traits>
 
@@ -129,10 +130,19 @@ SolveStatus status_of(nlopt_result code) {
   }
 }
 
+double checked_initial_step(double initial_step) {
+  if (initial_step >= 0.0 && initial_step <= 1.0) return initial_step;
+  std::ostringstream text;
+  text << "initial_step = " << initial_step << ": give a share of the box's width, from 0 to 1";
+  throw UsageError(text.str());
+}
+
 }  // namespace
 
-NloptSolver::NloptSolver(const std::string& name, double tolerance)
-    : name_(algorithm(name).name), tolerance_(checked_tolerance(tolerance)) {}
+NloptSolver::NloptSolver(const std::string& name, double tolerance, double initial_step)
+    : name_(algorithm(name).name),
+      tolerance_(checked_tolerance(tolerance)),
+      initial_step_(checked_initial_step(initial_step)) {}
 
 SolverNeeds NloptSolver::needs() const { return {.gradient = algorithm(name_).needs_gradient}; }
 
@@ -153,6 +163,7 @@ SolveResult NloptSolver::do_solve(const Objective& objective, const SolveRequest
   nlopt_set_upper_bounds1(handle.get(), 1.0);
   nlopt_set_stopval(handle.get(), std::numeric_limits<double>::lowest());
   nlopt_set_maxeval(handle.get(), max_requests(bounded_request.stop));
+  if (initial_step_ > 0.0) nlopt_set_initial_step1(handle.get(), initial_step_);
   if (is_multistart) {
     const nlopt_algorithm local = uses_gradient ? NLOPT_LD_LBFGS : NLOPT_LN_BOBYQA;
     nlopt_set_local_optimizer(handle.get(), create(local, unit_box.dimension(), tolerance_).get());

@@ -14,9 +14,9 @@ namespace nbvopt {
 /// mlsl-lds starts L-BFGS where the objective has a gradient, else BOBYQA.
 class NloptSolver final : public Solver {
  public:
-  /// `name` is one of the above after "nlopt:"; `tolerance` as in SolverOptions. Throws UsageError
-  /// when the tolerance is not above 0 and finite.
-  NloptSolver(const std::string& name, double tolerance);
+  /// `name` is one of the above after "nlopt:"; `tolerance` and `initial_step` as in SolverOptions.
+  /// Throws UsageError when the tolerance is not above 0 and finite, or the step not from 0 to 1.
+  NloptSolver(const std::string& name, double tolerance, double initial_step);
 
   std::string name() const override { return name_; }
   SolverNeeds needs() const override;
@@ -26,6 +26,7 @@ class NloptSolver final : public Solver {
 
   std::string name_;
   double tolerance_;
+  double initial_step_;
 };
 
 }  // namespace nbvopt

@@ -7,6 +7,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nlopt.hpp"
 #include "random.hpp"
+#include "strategy.hpp"
 
 namespace nbvopt {
 namespace {
@@ -15,6 +16,10 @@ struct Entry {
   const char* name;
   std::unique_ptr<Solver> (*make)(const std::string& name, const SolverOptions& options);
 };
+
+std::unique_ptr<Solver> make_auto(const std::string& name, const SolverOptions&) {
+  return std::make_unique<StrategySolver>(name, StrategyOptions{});
+}
 
 std::unique_ptr<Solver> make_grid(const std::string&, const SolverOptions& options) {
   return std::make_unique<GridSolver>(options.grid_steps);
@@ -25,7 +30,7 @@ std::unique_ptr<Solver> make_random(const std::string&, const SolverOptions&) {
 }
 
 std::unique_ptr<Solver> make_nlopt(const std::string& name, const SolverOptions& options) {
-  return std::make_unique<NloptSolver>(name, options.tolerance);
+  return std::make_unique<NloptSolver>(name, options.tolerance, options.initial_step);
 }
 
 std::unique_ptr<Solver> make_ceres_lbfgs(const std::string&, const SolverOptions& options) {
@@ -38,6 +43,7 @@ std::unique_ptr<Solver> make_ceres_lm(const std::string&, const SolverOptions& o
 
 /// Every solver; a new one is added here and nowhere else.
 constexpr std::array kSolvers{
+    Entry{"auto", make_auto},
     Entry{"grid", make_grid},
     Entry{"random", make_random},
     Entry{"nlopt:direct-l", make_nlopt},

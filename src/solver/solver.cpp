@@ -77,15 +77,19 @@ SolveResult Solver::solve(const Objective& objective, const SolveRequest& reques
     throw UsageError("max_evaluations = " + std::to_string(request.stop.max_evaluations) +
                      ": at least 1 is needed, for the start");
   }
-  if (needs().gradient && !objective.has_gradient()) {
-    throw UsageError("solver " + name() +
-                     " needs a gradient, which this objective has not: use a solver without one");
-  }
-  if (needs().residuals && !objective.has_residuals()) {
-    throw UsageError("solver " + name() +
-                     " needs residuals, which this objective has not: use a solver without them");
-  }
+  check_needs(objective);
   return do_solve(objective, request);
+}
+
+void Solver::check_needs(const Objective& objective) const {
+  const auto check = [&](bool is_met, const std::string& need) {
+    if (is_met) return;
+    throw UsageError("solver " + name() + " needs " + need +
+                     ", which this objective has not: use a solver that needs none");
+  };
+  check(!needs().gradient || objective.has_gradient(), "a gradient");
+  check(!needs().residuals || objective.has_residuals(), "residuals");
+  check(!needs().surrogate || objective.surrogate(), "a surrogate");
 }
 
 }  // namespace nbvopt

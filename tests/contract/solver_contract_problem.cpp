@@ -22,7 +22,46 @@ Box cube(Eigen::Index dimension, double lower, double upper) {
   return {Point::Constant(dimension, lower), Point::Constant(dimension, upper)};
 }
 
+/// The surrogate of a problem: residuals a hundredth or so away.
+Textbook surrogate_of(Textbook textbook) {
+  constexpr double kError = 0.02;
+  textbook.residuals = [true_residuals = std::move(textbook.residuals)](
+                           const Point& x, Eigen::VectorXd& residuals, Eigen::MatrixXd& jacobian) {
+    true_residuals(x, residuals, jacobian);
+    for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+      const double phase = 2.0 * x[0] + static_cast<double>(i);
+      residuals[i] += kError * std::sin(phase);
+      jacobian(i, 0) += 2.0 * kError * std::cos(phase);
+    }
+  };
+  --textbook.surrogates;
+  return textbook;
+}
+
 }  // namespace
+
+TextbookProblem::TextbookProblem(Textbook textbook) : textbook_(std::move(textbook)) {
+  if (textbook_.surrogates == 0) return;
+  surrogate_ = std::make_unique<TextbookProblem>(surrogate_of(textbook_));
+}
+
+void TextbookProblem::use_threads(std::size_t threads) {
+  threads_ = threads;
+  if (surrogate_) surrogate_->use_threads(threads);
+}
+
+std::vector<Record> TextbookProblem::surrogate_records() const {
+  std::vector<Record> records;
+  for (const TextbookProblem* problem = surrogate(); problem; problem = problem->surrogate()) {
+    records.insert(records.end(), problem->records_.begin(), problem->records_.end());
+  }
+  return records;
+}
+
+double TextbookProblem::period(Eigen::Index coordinate) const {
+  if (coordinate != textbook_.periodic_coordinate) return 0.0;
+  return box().upper[coordinate] - box().lower[coordinate];
+}
 
 double TextbookProblem::value(const Point& x) const {
   Eigen::VectorXd residuals;
@@ -31,11 +70,11 @@ double TextbookProblem::value(const Point& x) const {
 
 void TextbookProblem::values(std::span<const Point> points, std::span<double> values) const {
   const auto evaluate_share = [&](std::size_t thread) {
-    for (std::size_t i = thread; i < points.size(); i += threads) values[i] = value(points[i]);
+    for (std::size_t i = thread; i < points.size(); i += threads_) values[i] = value(points[i]);
   };
-  if (threads == 1) return evaluate_share(0);
+  if (threads_ == 1) return evaluate_share(0);
   std::vector<std::jthread> workers;
-  for (std::size_t thread = 0; thread < threads; ++thread) {
+  for (std::size_t thread = 0; thread < threads_; ++thread) {
     workers.emplace_back(evaluate_share, thread);
   }
 }
@@ -56,7 +95,7 @@ double TextbookProblem::value_and_residuals(const Point& x, Eigen::VectorXd& res
   }();
   before_evaluation(number);
   Eigen::MatrixXd own_jacobian;
-  residual_function_(x, residuals, jacobian ? *jacobian : own_jacobian);
+  textbook_.residuals(x, residuals, jacobian ? *jacobian : own_jacobian);
   const double value = kTop - residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
   records_.push_back({x, value});
@@ -64,7 +103,8 @@ double TextbookProblem::value_and_residuals(const Point& x, Eigen::VectorXd& res
 }
 
 TextbookProblem quadratic(const Eigen::Vector3d& optimum) {
-  return {cube(3, -1.0, 2.0), 3, quadratic_residuals(optimum)};
+  return TextbookProblem(
+      {.box = cube(3, -1.0, 2.0), .residual_count = 3, .residuals = quadratic_residuals(optimum)});
 }
 
 TextbookProblem rastrigin() {
@@ -79,7 +119,8 @@ TextbookProblem rastrigin() {
     jacobian.resize(4, 2);
     jacobian << Eigen::Matrix2d::Identity(), slope.asDiagonal().toDenseMatrix();
   };
-  return {cube(2, -4.0, 5.0), 4, residual_function};
+  return TextbookProblem(
+      {.box = cube(2, -4.0, 5.0), .residual_count = 4, .residuals = residual_function});
 }
 
 TextbookProblem plateau() {
@@ -90,7 +131,8 @@ TextbookProblem plateau() {
     residuals = outside;
     jacobian = (outside > 0.0).select(offset.sign(), 0.0).matrix().asDiagonal();
   };
-  return {cube(2, -2.0, 2.0), 2, residual_function};
+  return TextbookProblem(
+      {.box = cube(2, -2.0, 2.0), .residual_count = 2, .residuals = residual_function});
 }
 
 TextbookProblem quadratic_with_nan(std::function<bool(const Point&)> is_nan) {
@@ -102,11 +144,14 @@ TextbookProblem quadratic_with_nan(std::function<bool(const Point&)> is_nan) {
         residuals.setConstant(std::numeric_limits<double>::quiet_NaN());
         jacobian.setConstant(std::numeric_limits<double>::quiet_NaN());
       };
-  return {cube(3, -1.0, 2.0), 3, residual_function};
+  return TextbookProblem(
+      {.box = cube(3, -1.0, 2.0), .residual_count = 3, .residuals = residual_function});
 }
 
 TextbookProblem quadratic_over(Box box) {
-  return {std::move(box), 3, quadratic_residuals({0.2, 0.3, 0.4})};
+  return TextbookProblem({.box = std::move(box),
+                          .residual_count = 3,
+                          .residuals = quadratic_residuals({0.2, 0.3, 0.4})});
 }
 
 }  // namespace nbvopt::testing_contract

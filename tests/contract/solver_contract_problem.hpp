@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -21,39 +22,50 @@ struct Record {
   double value;
 };
 
+/// What makes a problem, and the chain of its surrogates.
+struct Textbook {
+  Box box;
+  Eigen::Index residual_count;
+  ResidualFunction residuals;
+  Eigen::Index periodic_coordinate = -1;  ///< turns once over the box; -1: none
+  int surrogates = 2;                     ///< each a small smooth error away from the one before
+};
+
 /// value(x) = top - |r(x)|^2, so that gradient and residuals follow from r. Writes down every
 /// evaluation, calls a hook before each, and evaluates batches on several threads.
 class TextbookProblem final : public Objective {
  public:
-  TextbookProblem(Box box, Eigen::Index residual_count, ResidualFunction residual_function)
-      : box_(std::move(box)),
-        residual_count_(residual_count),
-        residual_function_(std::move(residual_function)) {}
+  explicit TextbookProblem(Textbook textbook);
 
   static constexpr double kTop = 10.0;
 
   /// Called before each evaluation with its number, from 1 on; may throw.
   std::function<void(std::size_t)> before_evaluation = [](std::size_t) {};
-  /// Threads of values().
-  std::size_t threads = 1;
+  /// Threads of values(), of the surrogates too.
+  void use_threads(std::size_t threads);
 
   const std::vector<Record>& records() const { return records_; }
+  /// Of all the surrogates.
+  std::vector<Record> surrogate_records() const;
 
-  const Box& box() const override { return box_; }
+  const Box& box() const override { return textbook_.box; }
+  double period(Eigen::Index coordinate) const override;
+  const TextbookProblem* surrogate() const override { return surrogate_.get(); }
+  TextbookProblem* surrogate() { return surrogate_.get(); }
   double value(const Point& x) const override;
   void values(std::span<const Point> points, std::span<double> values) const override;
   double tie_cost(const Point& x) const override { return x.norm(); }
   bool has_gradient() const override { return true; }
   double value_and_gradient(const Point& x, Point& gradient) const override;
   bool has_residuals() const override { return true; }
-  Eigen::Index residual_count() const override { return residual_count_; }
+  Eigen::Index residual_count() const override { return textbook_.residual_count; }
   double value_and_residuals(const Point& x, Eigen::VectorXd& residuals,
                              Eigen::MatrixXd* jacobian) const override;
 
  private:
-  Box box_;
-  Eigen::Index residual_count_;
-  ResidualFunction residual_function_;
+  Textbook textbook_;
+  std::unique_ptr<TextbookProblem> surrogate_;
+  std::size_t threads_ = 1;
   mutable std::mutex mutex_;
   mutable std::vector<Record> records_;
   mutable std::size_t evaluations_ = 0;

@@ -24,11 +24,12 @@ std::string refusal(const std::string& name, const SolverOptions& options = {}) 
 }
 
 TEST(Registry, KnowsTheSolversOfTheDesign) {
-  EXPECT_THAT(solver_names(), testing::UnorderedElementsAre(
-                                  "grid", "random", "nlopt:direct-l", "nlopt:crs2", "nlopt:isres",
-                                  "nlopt:esch", "nlopt:mlsl-lds", "nlopt:stogo", "nlopt:ags",
-                                  "nlopt:lbfgs", "nlopt:slsqp", "nlopt:mma", "nlopt:bobyqa",
-                                  "nlopt:sbplx", "nlopt:cobyla", "ceres:lbfgs", "ceres:lm"));
+  EXPECT_THAT(
+      solver_names(),
+      testing::UnorderedElementsAre(
+          "auto", "grid", "random", "nlopt:direct-l", "nlopt:crs2", "nlopt:isres", "nlopt:esch",
+          "nlopt:mlsl-lds", "nlopt:stogo", "nlopt:ags", "nlopt:lbfgs", "nlopt:slsqp", "nlopt:mma",
+          "nlopt:bobyqa", "nlopt:sbplx", "nlopt:cobyla", "ceres:lbfgs", "ceres:lm"));
 }
 
 TEST(Registry, AnUnknownNameListsTheKnown) {
@@ -45,6 +46,14 @@ TEST(Registry, RefusesABadTolerance) {
     EXPECT_THAT(refusal("nlopt:sbplx", options), HasSubstr("tolerance = "));
     EXPECT_THAT(refusal("ceres:lbfgs", options), HasSubstr("tolerance = "));
     EXPECT_THAT(refusal("ceres:lm", options), HasSubstr("tolerance = "));
+  }
+}
+
+TEST(Registry, RefusesAFirstStepThatIsNoShareOfTheBox) {
+  SolverOptions options;
+  for (const double step : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    options.initial_step = step;
+    EXPECT_THAT(refusal("nlopt:sbplx", options), HasSubstr("initial_step = "));
   }
 }
 

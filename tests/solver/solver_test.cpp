@@ -89,6 +89,7 @@ TEST(Solver, RefusesAnObjectiveThatLacksWhatItNeeds) {
   const SolveRequest request = request_from(point(0, 0));
   EXPECT_THAT(refusal(kUnit, request, {.gradient = true}), HasSubstr("gradient"));
   EXPECT_THAT(refusal(kUnit, request, {.residuals = true}), HasSubstr("residuals"));
+  EXPECT_THAT(refusal(kUnit, request, {.surrogate = true}), HasSubstr("surrogate"));
 }
 
 }  // namespace

@@ -16,6 +16,9 @@ struct SolverOptions {
   /// Of `nlopt:*` and `ceres:*`: the search has converged when a step changes every coordinate by
   /// less than this share of the box's width.
   double tolerance = 1e-4;
+  /// Of `nlopt:sbplx`, `nlopt:bobyqa` and `nlopt:cobyla`, which alone heed it: the first step, a
+  /// share of the box's width; 0 leaves it to the solver.
+  double initial_step = 0.0;
 };
 
 std::vector<std::string> solver_names();

@@ -31,7 +31,8 @@ struct SolverNeeds {
 };
 
 /// One search: where it starts, when it stops, its seed. Without an evaluation limit every solver
-/// but `grid` sets its own, 200 a coordinate that is not frozen, so that every search ends.
+/// but `grid` and strategies sets its own, 200 a coordinate that is not frozen; a grid ends by
+/// itself, and a strategy's stages have their own limits.
 struct SolveRequest {
   Point start;  ///< inside the box; always evaluated
   StopRule stop;
@@ -61,6 +62,9 @@ class Solver {
   /// or not finite, the evaluation limit leaves none for the start, or the objective lacks what
   /// the solver needs. A deadline in the past or a raised cancel flag returns the start, evaluated.
   SolveResult solve(const Objective& objective, const SolveRequest& request) const;
+
+  /// Throws UsageError when the objective lacks what the solver needs; part of solve().
+  void check_needs(const Objective& objective) const;
 
  private:
   virtual SolveResult do_solve(const Objective& objective, const SolveRequest& request) const = 0;

@@ -1,0 +1,49 @@
+// Strategies: global on a surrogate, local on a surrogate, a short polish on the objective itself.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "nbvopt/solver/solver.hpp"
+
+namespace nbvopt {
+
+/// The stages of a strategy, each a solver of the registry, and what bounds them. A solver left
+/// empty leaves its stage out. The defaults are the solver "auto".
+struct StrategyOptions {
+  std::string global = "nlopt:direct-l";  ///< on the cheapest surrogate
+  std::string local = "nlopt:lbfgs";      ///< on the objective's surrogate
+  std::string polish = "nlopt:sbplx";     ///< on the objective
+
+  /// Points sampled inside each edge of the box that runs along coordinate 0, beside the corners
+  /// and the centres of edges, faces and box.
+  int edge_points = 12;
+  std::int64_t global_evaluations = 100;
+
+  int local_starts = 6;
+  /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
+  double start_separation = 0.1;
+  double local_tolerance = 1e-4;        ///< as SolverOptions::tolerance
+  std::int64_t local_evaluations = 40;  ///< of each start
+
+  /// Local optima that the objective judges; the polish starts from the best.
+  int polish_candidates = 3;
+  double polish_tolerance = 1e-3;  ///< as SolverOptions::tolerance
+  double polish_step = 0.02;       ///< as SolverOptions::initial_step
+  std::int64_t polish_evaluations = 60;
+};
+
+/// A solver that searches on the objective's surrogates and answers with what the objective itself
+/// evaluated. Without a global and a local stage it needs no surrogate.
+///
+/// The evaluation limit bounds those of the objective and of its surrogates together; without one
+/// the stages' own limits hold. One evaluation is kept for the surrogate's best point: when a limit
+/// ends the search early, the objective judges that point first. The status is `converged` when the
+/// local search that led to the answer and the polish met their tolerances.
+///
+/// Throws UsageError: a name that is not known, a solver that cannot work in its stage, an option
+/// out of range. Solving throws it where an objective lacks what a stage needs.
+std::unique_ptr<Solver> make_strategy(const StrategyOptions& options);
+
+}  // namespace nbvopt

@@ -1,0 +1,79 @@
+#include "start_points.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+/// Values of one coordinate.
+using Levels = std::vector<double>;
+
+/// Both ends, or one where both are the same point.
+Levels ends(const Objective& objective, Eigen::Index i) {
+  const double lower = objective.box().lower[i];
+  const double upper = objective.box().upper[i];
+  if (lower == upper || objective.period(i) != 0.0) return {lower};
+  return {lower, upper};
+}
+
+Levels ends_and_centre(const Objective& objective, Eigen::Index i) {
+  const double lower = objective.box().lower[i];
+  const double upper = objective.box().upper[i];
+  Levels levels = ends(objective, i);
+  if (lower < upper) levels.push_back(std::midpoint(lower, upper));
+  return levels;
+}
+
+/// The centre of the edge is left out: ends_and_centre() has it.
+Levels inside(const Objective& objective, Eigen::Index i, int count) {
+  const double lower = objective.box().lower[i];
+  const double upper = objective.box().upper[i];
+  Levels levels;
+  for (int k = 1; k <= count && lower < upper; ++k) {
+    if (2 * k == count + 1) continue;
+    levels.push_back(std::lerp(lower, upper, k / (count + 1.0)));
+  }
+  return levels;
+}
+
+/// Every combination of the coordinates' values.
+void append_combinations(const std::vector<Levels>& levels, std::vector<Point>& points) {
+  std::size_t count = 1;
+  for (const Levels& coordinate : levels) count *= coordinate.size();
+  for (std::size_t number = 0; number < count; ++number) {
+    Point& x = points.emplace_back(static_cast<Eigen::Index>(levels.size()));
+    std::size_t rest = number;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      x[static_cast<Eigen::Index>(i)] = levels[i][rest % levels[i].size()];
+      rest /= levels[i].size();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Point> start_points(const Objective& objective, int edge_points) {
+  const Box& box = objective.box();
+  if (const auto free = (box.lower.array() < box.upper.array()).count();
+      free > kMostFreeCoordinates) {
+    throw UsageError("box: " + std::to_string(free) + " coordinates can move, more than " +
+                     std::to_string(kMostFreeCoordinates) +
+                     ", of which a strategy samples all corners: freeze some");
+  }
+  std::vector<Levels> lattice;
+  std::vector<Levels> edges;
+  for (Eigen::Index i = 0; i < box.dimension(); ++i) {
+    lattice.push_back(ends_and_centre(objective, i));
+    edges.push_back(i == 0 ? inside(objective, i, edge_points) : ends(objective, i));
+  }
+  std::vector<Point> points;
+  append_combinations(lattice, points);
+  append_combinations(edges, points);
+  return points;
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,186 @@
+#include "strategy_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "batch_search.hpp"
+#include "separate_points.hpp"
+#include "shifted_period.hpp"
+#include "start_points.hpp"
+#include "stop_status.hpp"
+
+namespace nbvopt {
+namespace {
+
+/// Ends of local searches nearer than this share of the box's width are one optimum.
+constexpr double kSameOptimum = 0.01;
+
+}  // namespace
+
+const Objective& cheapest_surrogate(const Objective& objective) {
+  const Objective* cheapest = &objective;
+  while (cheapest->surrogate()) cheapest = cheapest->surrogate();
+  return *cheapest;
+}
+
+StrategySearch::StrategySearch(const StrategyOptions& options, const StrategyStages& stages,
+                               const Objective& objective, const SolveRequest& request)
+    : options_(options),
+      stages_(stages),
+      request_(request),
+      objective_(objective),
+      best_(objective) {
+  if (!stages.global && !stages.local) return;
+  reserved_evaluations_ = 1;
+  const Objective& cheapest = cheapest_surrogate(objective);
+  surrogates_.emplace_back(*objective.surrogate());
+  if (&cheapest != objective.surrogate()) surrogates_.emplace_back(cheapest);
+}
+
+SolveResult StrategySearch::run() {
+  judge(request_.start);
+  if (objective_.box().lower == objective_.box().upper) return result();
+  judge(climb(survey()));
+  polish();
+  return result();
+}
+
+std::vector<StrategySearch::Candidate> StrategySearch::survey() {
+  if (surrogates_.empty() || must_end()) return {};
+  RecordingObjective& surrogate = surrogates_.back();
+  sample(surrogate);
+  if (stages_.global && !must_end()) search_globally(surrogate);
+
+  std::vector<Candidate> starts;
+  for (const std::size_t i :
+       separate_points(surrogate, surrogate.points(), surrogate.values(), options_.start_separation,
+                       static_cast<std::size_t>(options_.local_starts))) {
+    starts.push_back({surrogate.points().col(static_cast<Eigen::Index>(i)), surrogate.values()[i]});
+  }
+  return starts;
+}
+
+void StrategySearch::sample(RecordingObjective& surrogate) {
+  const std::vector<Point> points = start_points(surrogate, options_.edge_points);
+  auto next = points.begin();
+  const auto next_candidate = [&]() -> std::optional<Point> {
+    if (next != points.end() && *next == request_.start) ++next;  // evaluated first
+    if (next == points.end()) return std::nullopt;
+    return *next++;
+  };
+  batch_search(surrogate, stage_request(request_.start, request_.stop.max_evaluations),
+               next_candidate, SolveStatus::grid_complete);
+  note_stage(surrogate.evaluations(), "samples");
+}
+
+void StrategySearch::search_globally(RecordingObjective& surrogate) {
+  const std::int64_t before = surrogate.evaluations();
+  const auto best = separate_points(surrogate, surrogate.points(), surrogate.values(), 0.0, 1);
+  const Point start =
+      best.empty() ? request_.start : surrogate.points().col(static_cast<Eigen::Index>(best[0]));
+  stages_.global->solve(surrogate, stage_request(start, options_.global_evaluations));
+  note_stage(surrogate.evaluations() - before, "of global " + stages_.global->name());
+}
+
+std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<Candidate>& starts) {
+  std::vector<Candidate> ends;
+  if (stages_.local && !starts.empty()) {
+    RecordingObjective& surrogate = surrogates_.front();
+    const std::int64_t before = surrogate.evaluations();
+    for (const Candidate& start : starts) {
+      if (must_end()) break;
+      const ShiftedPeriod shifted(surrogate, start.x);
+      const SolveResult end =
+          stages_.local->solve(shifted, stage_request(start.x, options_.local_evaluations));
+      ends.push_back({shifted.wrapped(end.best), end.value, end.status});
+    }
+    note_stage(surrogate.evaluations() - before, "of local " + stages_.local->name() + " from " +
+                                                     std::to_string(ends.size()) +
+                                                     (ends.size() == 1 ? " start" : " starts"));
+  }
+  return best_separate(ends.empty() ? starts : ends);
+}
+
+void StrategySearch::judge(const std::vector<Candidate>& candidates) {
+  must_end();
+  reserved_evaluations_ = 0;
+  for (const Candidate& candidate : candidates) {
+    const bool is_first = &candidate == &candidates.front();
+    if (!is_first && must_end()) break;
+    judge(candidate.x);
+    if (best_.point() == candidate.x) local_status_ = candidate.status;
+  }
+}
+
+void StrategySearch::judge(const Point& x) { best_.offer(x, objective_.value(x)); }
+
+void StrategySearch::polish() {
+  if (!stages_.polish || must_end()) return;
+  const std::int64_t before = objective_.evaluations();
+  const ShiftedPeriod shifted(objective_, best_.point());
+  const SolveResult end =
+      stages_.polish->solve(shifted, stage_request(best_.point(), options_.polish_evaluations));
+  best_.offer(shifted.wrapped(end.best), end.value);
+  polish_status_ = end.status;
+  note_stage(objective_.evaluations() - before, "of polish " + stages_.polish->name());
+}
+
+std::vector<StrategySearch::Candidate> StrategySearch::best_separate(
+    const std::vector<Candidate>& candidates) const {
+  Eigen::MatrixXd points(objective_.box().dimension(), candidates.size());
+  std::vector<double> values;
+  for (const Candidate& candidate : candidates) {
+    points.col(static_cast<Eigen::Index>(values.size())) = candidate.x;
+    values.push_back(candidate.value);
+  }
+  std::vector<Candidate> best;
+  for (const std::size_t i :
+       separate_points(objective_, points, values, kSameOptimum,
+                       static_cast<std::size_t>(options_.polish_candidates))) {
+    best.push_back(candidates[i]);
+  }
+  return best;
+}
+
+bool StrategySearch::must_end() {
+  if (!limit_) {
+    limit_ = stop_status(
+        request_.stop, objective_.evaluations() + surrogate_evaluations() + reserved_evaluations_);
+  }
+  return limit_.has_value();
+}
+
+std::int64_t StrategySearch::surrogate_evaluations() const {
+  std::int64_t sum = 0;
+  for (const RecordingObjective& surrogate : surrogates_) sum += surrogate.evaluations();
+  return sum;
+}
+
+SolveRequest StrategySearch::stage_request(const Point& start, std::int64_t max_evaluations) const {
+  SolveRequest request{start, request_.stop, request_.seed};
+  const std::int64_t left = request_.stop.max_evaluations - objective_.evaluations() -
+                            surrogate_evaluations() - reserved_evaluations_;
+  request.stop.max_evaluations = std::min(left, max_evaluations);
+  return request;
+}
+
+void StrategySearch::note_stage(std::int64_t evaluations, const std::string& what) {
+  stages_note_ += (stages_note_.empty() ? ": " : ", ") + std::to_string(evaluations) + " " + what;
+}
+
+SolveStatus StrategySearch::status() const {
+  if (limit_) return *limit_;
+  if (polish_status_ != SolveStatus::converged) return polish_status_;
+  if (local_status_ != SolveStatus::converged) return SolveStatus::evaluation_limit;
+  return SolveStatus::converged;
+}
+
+SolveResult StrategySearch::result() const {
+  const std::int64_t of_surrogates = surrogate_evaluations();
+  std::string message = solve_message(status(), objective_.evaluations());
+  if (of_surrogates > 0) message += " and " + std::to_string(of_surrogates) + " of surrogates";
+  return {status(),      message + stages_note_,   best_.point(),
+          best_.value(), objective_.evaluations(), of_surrogates};
+}
+
+}  // namespace nbvopt
