@@ -5,6 +5,7 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "planner/panorama_objective.hpp"
 #include "planner/plan_message.hpp"
 #include "planner/search_trace.hpp"
 #include "planner/view_objective.hpp"
@@ -215,7 +216,7 @@ KeyBox Planner::reachable_voxels(const PlanRequest& request) const {
   const double drive_m = speed_m_s(request.base_twist) * longest_s;
   constexpr double kLongestDrive_m = 100.0;  // a slip of the unit lies beyond it
   if (!(drive_m <= kLongestDrive_m)) {
-    throw InputError("base_twist: the base would drive " + format_number(drive_m) +
+    throw InputError("base_twist: the base would drive " + format_number(std::round(drive_m)) +
                      " m while the joints move, at most 100 m can be predicted");
   }
 

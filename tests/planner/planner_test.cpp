@@ -2,7 +2,6 @@
 #include "nbvopt/planner/planner.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
@@ -11,9 +10,8 @@
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
-#include "nbvopt/solver/registry.hpp"
+#include "planner/planner_world.hpp"
 #include "support/error_message.hpp"
-#include "support/made_map.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -25,100 +23,6 @@ using ::testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// A gain that is a function of where the camera looks, and no map.
-class MadeUpGain final : public ViewEvaluator {
- public:
-  using Function = std::function<double(double yaw_rad, double pitch_rad, double z_m)>;
-
-  explicit MadeUpGain(Function gain) : gain_(std::move(gain)) {}
-  std::string name() const override { return "made-up"; }
-  ViewGain evaluate(const Transform& T_map_sensor) const override {
-    const Eigen::Vector3d ahead = T_map_sensor.linear().col(2);
-    ViewGain view;
-    view.gain = gain_(std::atan2(ahead.y(), ahead.x()), std::asin(ahead.z()),
-                      T_map_sensor.translation().z());
-    return view;
-  }
-
- private:
-  Function gain_;
-};
-
-/// The planner of a small camera on a map, with the exact evaluator unless another is given.
-struct World {
-  Robot robot;
-  std::shared_ptr<const VoxelGrid> grid;
-  std::shared_ptr<const ViewEvaluator> evaluator;
-
-  explicit World(const UncertaintyMap& map, double range_max_m = 1.0)
-      : grid(VoxelGrid::whole(map)) {
-    robot.sensor.horizontal_rays = 12;
-    robot.sensor.vertical_rays = 9;
-    robot.sensor.range_max_m = range_max_m;
-    evaluator = make_exact_evaluator(grid, DepthCamera(robot.sensor));
-  }
-  World(const UncertaintyMap& map, MadeUpGain::Function gain) : World(map) {
-    evaluator = std::make_shared<MadeUpGain>(std::move(gain));
-  }
-
-  Planner planner() const { return {robot, grid, evaluator}; }
-
-  ViewGain view(const PlanRequest& request, const JointPosition& joints) const {
-    return evaluator->evaluate(T_map_sensor(request, Mast(robot.mast), joints));
-  }
-};
-
-std::unique_ptr<Solver> pan_grid(double step_rad) {
-  return make_solver("grid", {.grid_steps = {step_rad, 0.0, 0.0}});
-}
-
-PlanRequest request_at(const JointPosition& joints, double motion_time_s) {
-  PlanRequest request;
-  request.T_map_base = base_pose(0.03, 0.02, 0.01, 0.0);
-  request.joints = joints;
-  request.motion_time_s = motion_time_s;
-  return request;
-}
-
-constexpr JointPosition kMiddle{0.0, 0.0, 0.4};
-
-/// Free space within two metres, and what `furnish` adds.
-UncertaintyMap free_cube(const std::function<void(UncertaintyMap&)>& furnish = nullptr) {
-  UncertaintyMap map(0.1);
-  set_box(map, cube(key_from_origin(-20, -20, -20), 40), kFree);
-  if (furnish) furnish(map);
-  map.finish_writing();
-  return map;
-}
-
-/// What every answer keeps.
-void expect_contract(const World& world, const PlanRequest& request, const PlanResult& result) {
-  const Mast mast(world.robot.mast);
-  EXPECT_NE(result.status, PlanStatus::not_run);
-  EXPECT_FALSE(result.message.empty());
-  EXPECT_TRUE(result.box.contains(result.joints.vector())) << result.joints.vector().transpose();
-  EXPECT_TRUE(result.box.contains(request.joints.vector()));
-  const JointBox reachable = mast.reachable_box(request.joints, request.motion_time_s);
-  EXPECT_TRUE(reachable.contains(result.box.min));
-  EXPECT_TRUE(reachable.contains(result.box.max));
-  EXPECT_EQ(result.view, world.view(request, result.joints)) << "the gain is exact";
-  EXPECT_EQ(result.current, world.view(request, request.joints));
-  EXPECT_GE(result.view.gain, result.current.gain);
-  EXPECT_EQ(result.T_map_sensor.matrix(), T_map_sensor(request, mast, result.joints).matrix());
-  EXPECT_EQ(result.move_time_s, mast.move_time_s(request.joints, result.joints));
-  if (request.motion_time_s > 0.0) {
-    EXPECT_LE(result.move_time_s, request.motion_time_s * (1.0 + 1e-12));
-  }
-  EXPECT_GE(result.evaluations, 1);
-  EXPECT_GE(result.search_time_ms, 0.0);
-  EXPECT_EQ(result.seed, request.seed);
-  EXPECT_EQ(result.map_version, world.grid->version());
-  if (result.status == PlanStatus::no_gain_in_reach) {
-    EXPECT_EQ(result.joints, request.joints);
-    EXPECT_LT(result.view.gain, request.min_gain);
-  }
-}
 
 TEST(Planner, KeepsItsPromisesOnRandomQueries) {
   const UncertaintyMap map =
@@ -406,6 +310,8 @@ TEST(Planner, RefusesARequestThatIsNotUsable) {
   EXPECT_THAT(message([](auto& r) { r.joints.tilt_rad = 0.81; }), HasSubstr("tilt is 0.81 rad"));
   EXPECT_THAT(message([](auto& r) { r.joints.height_m = 0.17; }), HasSubstr("height is 0.17 m"));
   EXPECT_THAT(message([](auto& r) { r.base_twist.wz_rad_s = kNan; }), HasSubstr("base_twist"));
+  EXPECT_THAT(message([](auto& r) { r.base_twist.vx_m_s = 1e3; }),
+              HasSubstr("base_twist: the base would drive 500 m"));
   EXPECT_THAT(message([](auto& r) { r.T_map_base.translation().x() = 1e300; }),
               HasSubstr("lattice"));
 }
