@@ -38,6 +38,15 @@ Transform MovingMast::T_map_sensor(const JointPosition& q) const {
   return T_map_base(arrival_time_s(q)) * T_base_sensor;
 }
 
+Eigen::Vector3d MovingMast::arrival_time_gradient(const JointPosition& q) const {
+  const Eigen::Vector3d way = q.vector() - joints_.vector();
+  Eigen::Index slowest = 0;
+  (way.cwiseAbs().array() / mast_.velocity().array()).maxCoeff(&slowest);
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  gradient[slowest] = std::copysign(1.0, way[slowest]) / mast_.velocity()[slowest];
+  return gradient;
+}
+
 SensorMotion MovingMast::sensor_motion(const JointPosition& q) const {
   const Transform T_base_sensor = mast_.T_base_sensor(q);
   const Eigen::Matrix3d R_sensor_base = T_base_sensor.linear().transpose();
@@ -52,17 +61,15 @@ SensorMotion MovingMast::sensor_motion(const JointPosition& q) const {
                    right_sensor.cross(R_sensor_base * lever_base), R_sensor_base * z_base};
   if (base_twist_.is_zero()) return motion;
 
-  // The slowest joint alone decides when the base stops counting.
-  const Eigen::Vector3d way = q.vector() - joints_.vector();
-  Eigen::Index slowest = 0;
-  (way.cwiseAbs().array() / mast_.velocity().array()).maxCoeff(&slowest);
-  const double time_per_joint = std::copysign(1.0, way[slowest]) / mast_.velocity()[slowest];
   const Eigen::Vector3d turn_base = base_twist_.wz_rad_s * z_base;
   const Eigen::Vector3d velocity_base =
       Eigen::Vector3d(base_twist_.vx_m_s, base_twist_.vy_m_s, 0.0) + turn_base.cross(p_base);
-  const auto joint = static_cast<std::size_t>(slowest);
-  motion.angular[joint] += time_per_joint * (R_sensor_base * turn_base);
-  motion.linear[joint] += time_per_joint * (R_sensor_base * velocity_base);
+  const Eigen::Vector3d time_gradient = arrival_time_gradient(q);
+  for (std::size_t i = 0; i < motion.angular.size(); ++i) {
+    const double time_per_joint = time_gradient[static_cast<Eigen::Index>(i)];
+    motion.angular[i] += time_per_joint * (R_sensor_base * turn_base);
+    motion.linear[i] += time_per_joint * (R_sensor_base * velocity_base);
+  }
   return motion;
 }
 

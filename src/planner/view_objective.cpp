@@ -1,10 +1,17 @@
 #include "planner/view_objective.hpp"
 
+#include "planner/joint_period.hpp"
+
 namespace nbvopt {
 
 ViewObjective::ViewObjective(const MovingMast& mast, const JointBox& box,
-                             const ViewEvaluator& evaluator, SearchTrace* trace)
-    : mast_(mast), box_{box.min, box.max}, evaluator_(evaluator), trace_(trace) {}
+                             const ViewEvaluator& evaluator, const Objective* surrogate,
+                             SearchTrace* trace)
+    : mast_(mast),
+      box_{box.min, box.max},
+      evaluator_(evaluator),
+      surrogate_(surrogate),
+      trace_(trace) {}
 
 double ViewObjective::value(const Point& x) const { return evaluate(x).gain; }
 
@@ -21,6 +28,10 @@ void ViewObjective::values(std::span<const Point> points, std::span<double> valu
 
 double ViewObjective::tie_cost(const Point& x) const {
   return mast_.arrival_time_s(JointPosition::from(x));
+}
+
+double ViewObjective::period(Eigen::Index coordinate) const {
+  return joint_period(mast_.mast(), box_, coordinate);
 }
 
 ViewGain ViewObjective::view(const Point& x) const {

@@ -16,15 +16,18 @@ namespace nbvopt {
 /// last views, so that the answer's view is not evaluated twice. Thread-safe.
 class ViewObjective final : public Objective {
  public:
-  /// All references must outlive the objective. `trace` may be null: nothing is recorded.
+  /// All references must outlive the objective. `surrogate` may be null: there is none; `trace` may
+  /// be null: nothing is recorded.
   ViewObjective(const MovingMast& mast, const JointBox& box, const ViewEvaluator& evaluator,
-                SearchTrace* trace = nullptr);
+                const Objective* surrogate = nullptr, SearchTrace* trace = nullptr);
 
   const Box& box() const override { return box_; }
   double value(const Point& x) const override;
   /// On all cores; recorded in the order of the points.
   void values(std::span<const Point> points, std::span<double> values) const override;
   double tie_cost(const Point& x) const override;
+  double period(Eigen::Index coordinate) const override;
+  const Objective* surrogate() const override { return surrogate_; }
 
   /// The view at a point, evaluated unless it is remembered.
   ViewGain view(const Point& x) const;
@@ -45,6 +48,7 @@ class ViewObjective final : public Objective {
   const MovingMast& mast_;
   Box box_;
   const ViewEvaluator& evaluator_;
+  const Objective* surrogate_;
   SearchTrace* trace_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;
   mutable std::mutex mutex_;

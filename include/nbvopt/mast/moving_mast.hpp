@@ -40,6 +40,10 @@ class MovingMast {
   /// When the slowest joint arrives at q, seconds from now.
   double arrival_time_s(const JointPosition& q) const { return mast_.move_time_s(joints_, q); }
 
+  /// Its derivative by each joint, seconds per rad or m: that of the slowest joint alone. Where two
+  /// joints arrive together, or none moves, the time has a kink: the derivative is of one side.
+  Eigen::Vector3d arrival_time_gradient(const JointPosition& q) const;
+
   /// The base predicted for a time from now.
   Transform T_map_base(double time_s) const;
 

@@ -24,6 +24,12 @@ class UncertaintyModel {
 
   double distance_weight() const { return distance_weight_; }
   double angle_weight() const { return angle_weight_; }
+  /// Short of the clamp at the edge of the field of view u is linear in |alpha_h| and |alpha_v|
+  /// (Eq. 3 to 8): what a radian of each adds.
+  double horizontal_weight_per_rad() const {
+    return angle_weight_ / (2.0 * half_fov_horizontal_rad_);
+  }
+  double vertical_weight_per_rad() const { return angle_weight_ / (2.0 * half_fov_vertical_rad_); }
   double focal_distance_m() const { return focal_distance_m_; }
 
  private:

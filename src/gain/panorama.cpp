@@ -1,0 +1,313 @@
+#include "nbvopt/gain/panorama.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <vector>
+
+#include "gain/panorama_directions.hpp"
+#include "gain/panorama_layer.hpp"
+#include "gain/panorama_sum.hpp"
+#include "gain/voxel_sum.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+using detail::PanoramaLayer;
+using detail::PanoramaSum;
+using detail::PanoramaView;
+
+/// Places along a line, at most a spacing apart, between which values are blended.
+struct Stations {
+  double first = 0.0;
+  double step = 0.0;  ///< 0: one place only
+  int count = 1;
+
+  Stations(double from, double to, double spacing) : first(from) {
+    const double length = to - from;
+    if (!(length > 0.0 && spacing > 0.0)) return;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+    step = length / steps;
+    count = steps + 1;
+  }
+  double at(int i) const { return first + i * step; }
+
+  /// The place before x, and the weight of the next one with its slope: a smooth step.
+  struct Blend {
+    int before;
+    double next;
+    double next_slope;
+  };
+  Blend blend(double x) const {
+    if (count == 1) return {0, 0.0, 0.0};
+    const double place = std::clamp((x - first) / step, 0.0, count - 1.0);
+    const int before = std::min(static_cast<int>(place), count - 2);
+    const double t = place - before;
+    return {before, t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / step};
+  }
+};
+
+/// A layer's share in the gain at a joint position.
+struct LayerWeight {
+  int layer;
+  double weight;
+  Eigen::Vector3d gradient;
+};
+
+double depth_stretch(const SensorOptions& sensor) {
+  if (sensor.range_axis == RangeAxis::euclidean) return 1.0;
+  const double tan_h = std::tan(sensor.half_fov_horizontal_rad);
+  const double tan_v = std::tan(sensor.half_fov_vertical_rad);
+  return std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v);
+}
+
+/// Layers a voxel apart, or half a voxel where voxels are large.
+double layer_spacing_m(double resolution_m, const PanoramaOptions& options) {
+  constexpr double kLargeVoxel_m = 0.1 - 1e-9;
+  return options.layer_spacing * resolution_m * (resolution_m >= kLargeVoxel_m ? 0.5 : 1.0);
+}
+
+double slowest_time_s(const MovingMast& mast, const JointBox& box) {
+  return std::max(mast.arrival_time_s(JointPosition::from(box.min)),
+                  mast.arrival_time_s(JointPosition::from(box.max)));
+}
+
+/// The box, its pans those that a turning base sees as well.
+JointBox with_turn(JointBox box, double turn_rad) {
+  box.min[0] += std::min(0.0, turn_rad);
+  box.max[0] += std::max(0.0, turn_rad);
+  return box;
+}
+
+void check(const PanoramaOptions& options) {
+  const auto require = [](double value, const char* name) {
+    if (std::isfinite(value) && value > 0.0) return;
+    throw InputError(std::string("panorama: ") + name + " must be a finite number above 0");
+  };
+  require(options.ray_spacing, "ray_spacing");
+  require(options.layer_spacing, "layer_spacing");
+  require(options.smoothing, "smoothing");
+}
+
+}  // namespace
+
+class Panorama::Impl {
+ public:
+  Impl(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor, const MovingMast& mast,
+       const JointBox& box, const PanoramaOptions& options)
+      : grid_(std::move(grid)),
+        mast_(mast),
+        counting_(sensor.counting),
+        model_(sensor, grid_->lattice().resolution_m()),
+        kernel_(detail::panorama_kernel(options.double_precision)),
+        tau_h_rad_(options.smoothing * options.ray_spacing * model_.ray_spacing_h_rad),
+        tau_v_rad_(options.smoothing * options.ray_spacing * model_.ray_spacing_v_rad),
+        layer_spacing_m_(layer_spacing_m(grid_->lattice().resolution_m(), options)),
+        slowest_time_s_(slowest_time_s(mast, box)),
+        rays_per_patch_(detail::HitBlock::kSize * options.ray_spacing * options.ray_spacing),
+        directions_(directions(box, options)),
+        heights_(box.min[2], box.max[2], layer_spacing_m_),
+        times_(0.0, slowest_time_s_, time_spacing_s()),
+        caster_{*grid_,
+                directions_,
+                mast_.T_map_base(0.0).linear(),
+                sensor.range_min_m,
+                sensor.range_max_m * depth_stretch(sensor),
+                sensor.near_blocking,
+                sensor.occupied_uncertainty,
+                model_.weight_distance,
+                model_.focal_distance_m,
+                layer_spacing_m_,
+                counting_ == Counting::per_voxel,
+                !mast.mast().options().sensor_offset_m.isZero(0.0)},
+        layers_(static_cast<std::size_t>(heights_.count) * static_cast<std::size_t>(times_.count)) {
+  }
+
+  /// The sum at q, with its gradient unless null.
+  double gain(const JointPosition& q, double smoothing, Eigen::Vector3d* gradient) {
+    const Transform T_map_sensor = mast_.T_map_sensor(q);
+    const SensorMotion motion = gradient ? mast_.sensor_motion(q) : SensorMotion{};
+    double gain = 0.0;
+    if (gradient) gradient->setZero();
+    for (const LayerWeight& weight : weights(q)) {
+      if (weight.weight == 0.0) continue;  // its slope is 0 there as well
+      const PanoramaView view = view_of(T_map_sensor, weight.layer, smoothing);
+      thread_local std::vector<std::uint32_t> ids;
+      const PanoramaLayer& layer = select(weight.layer, view, ids);
+      if (!gradient) {
+        gain += weight.weight * layer_gain(layer, view, ids);
+        continue;
+      }
+      const PanoramaSum sum = layer_sum(layer, view, ids);
+      gain += weight.weight * sum.gain;
+      *gradient += weight.weight * joint_gradient(sum, motion) + sum.gain * weight.gradient;
+    }
+    return gain;
+  }
+
+  /// A ray of a layer stands for ray_spacing^2 rays at most twice as dense in the corners of the
+  /// image, each of which gains less than 1; another factor of 2 covers hits that are seen from
+  /// nearer than they were cast from.
+  double patch_gain_bound() const { return 4.0 * rays_per_patch_; }
+
+  std::size_t patch_count() const { return directions_.patch_count(); }
+
+  void patch_gains(const JointPosition& q, Eigen::VectorXd& gains, Eigen::MatrixXd* derivatives) {
+    if (counting_ == Counting::per_voxel) {
+      throw UsageError(
+          "panorama: the gains of patches add up per ray only, use --counting per_ray");
+    }
+    const auto patches = static_cast<Eigen::Index>(patch_count());
+    gains.setZero(patches);
+    if (derivatives) derivatives->setZero(patches, 3);
+    const Transform T_map_sensor = mast_.T_map_sensor(q);
+    const SensorMotion motion = mast_.sensor_motion(q);
+    for (const LayerWeight& weight : weights(q)) {
+      if (weight.weight == 0.0) continue;
+      const PanoramaView view = view_of(T_map_sensor, weight.layer, 1.0);
+      thread_local std::vector<std::uint32_t> ids;
+      const PanoramaLayer& layer = select(weight.layer, view, ids);
+      for (const std::uint32_t id : ids) {
+        const PanoramaSum sum =
+            kernel_.gain_and_motion(model_, view, layer.blocks(), std::span(&id, 1));
+        gains[id] += weight.weight * sum.gain;
+        if (!derivatives) continue;
+        derivatives->row(id) +=
+            (weight.weight * joint_gradient(sum, motion) + sum.gain * weight.gradient).transpose();
+      }
+    }
+  }
+
+ private:
+  detail::PanoramaDirections directions(const JointBox& box, const PanoramaOptions& options) const {
+    const JointBox seen = with_turn(box, mast_.base_twist().wz_rad_s * slowest_time_s_);
+    return {detail::directions_in_reach(seen, model_.half_fov_h_rad + tau_h_rad_,
+                                        model_.half_fov_v_rad + tau_v_rad_),
+            options.ray_spacing * model_.ray_spacing_h_rad,
+            options.ray_spacing * model_.ray_spacing_v_rad,
+            box,
+            mast_.mast().options().sensor_offset_m,
+            mast_.T_map_base(0.0).linear()};
+  }
+
+  /// How long the base takes from layer to layer; 0 where it stays.
+  double time_spacing_s() const {
+    const double speed_m_s = std::hypot(mast_.base_twist().vx_m_s, mast_.base_twist().vy_m_s);
+    return speed_m_s > 0.0 ? layer_spacing_m_ / speed_m_s : 0.0;
+  }
+
+  std::array<LayerWeight, 4> weights(const JointPosition& q) const {
+    const Stations::Blend height = heights_.blend(q.height_m);
+    const Stations::Blend time = times_.blend(mast_.arrival_time_s(q));
+    const Eigen::Vector3d height_slope = height.next_slope * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d time_slope =
+        times_.count == 1 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                          : Eigen::Vector3d(time.next_slope * mast_.arrival_time_gradient(q));
+    std::array<LayerWeight, 4> result{};
+    for (int i = 0; i < 4; ++i) {
+      const int up = i & 1;
+      const int later = i >> 1;
+      const double h = up ? height.next : 1.0 - height.next;
+      const double t = later ? time.next : 1.0 - time.next;
+      result[static_cast<std::size_t>(i)] = {
+          std::min(time.before + later, times_.count - 1) * heights_.count +
+              std::min(height.before + up, heights_.count - 1),
+          h * t, (up ? t : -t) * height_slope + (later ? h : -h) * time_slope};
+    }
+    return result;
+  }
+
+  PanoramaView view_of(const Transform& T_map_sensor, int layer, double smoothing) const {
+    return {T_map_sensor.linear().transpose(), T_map_sensor.translation() - centre_map_m(layer),
+            smoothing * tau_h_rad_, smoothing * tau_v_rad_};
+  }
+
+  Eigen::Vector3d centre_map_m(int layer) const {
+    return mast_.T_map_base(times_.at(layer / heights_.count)) *
+           Eigen::Vector3d(0.0, 0.0, heights_.at(layer % heights_.count));
+  }
+
+  /// The layer, with all cast that the view needs: those patches are in `ids`.
+  const PanoramaLayer& select(int index, const PanoramaView& view,
+                              std::vector<std::uint32_t>& ids) {
+    const std::scoped_lock lock(mutex_);
+    std::unique_ptr<PanoramaLayer>& layer = layers_[static_cast<std::size_t>(index)];
+    if (!layer) layer = std::make_unique<PanoramaLayer>(caster_, centre_map_m(index));
+    layer->patches_in_view(view, model_.half_fov_h_rad + view.tau_h_rad,
+                           model_.half_fov_v_rad + view.tau_v_rad, ids);
+    layer->cast(ids);
+    return *layer;
+  }
+
+  double layer_gain(const PanoramaLayer& layer, const PanoramaView& view,
+                    std::span<const std::uint32_t> ids) const {
+    if (counting_ == Counting::per_voxel) {
+      return detail::voxel_sum(kernel_, model_, view, layer, ids, false).gain;
+    }
+    return kernel_.gain(model_, view, layer.blocks(), ids);
+  }
+
+  PanoramaSum layer_sum(const PanoramaLayer& layer, const PanoramaView& view,
+                        std::span<const std::uint32_t> ids) const {
+    if (counting_ == Counting::per_voxel) {
+      return detail::voxel_sum(kernel_, model_, view, layer, ids, true);
+    }
+    return kernel_.gain_and_motion(model_, view, layer.blocks(), ids);
+  }
+
+  static Eigen::Vector3d joint_gradient(const PanoramaSum& sum, const SensorMotion& motion) {
+    Eigen::Vector3d gradient;
+    for (std::size_t i = 0; i < 3; ++i) {
+      gradient[static_cast<Eigen::Index>(i)] =
+          -(motion.angular[i].dot(sum.torque) + motion.linear[i].dot(sum.force));
+    }
+    return gradient;
+  }
+
+  std::shared_ptr<const VoxelGrid> grid_;
+  MovingMast mast_;
+  Counting counting_;
+  detail::PanoramaModel model_;
+  detail::PanoramaKernel kernel_;
+  double tau_h_rad_, tau_v_rad_;
+  double layer_spacing_m_;
+  double slowest_time_s_;
+  double rays_per_patch_;  ///< of the sensor's
+  detail::PanoramaDirections directions_;
+  Stations heights_, times_;  ///< of the layers, heights running fastest
+  detail::LayerCaster caster_;
+  std::mutex mutex_;  ///< guards what follows
+  std::vector<std::unique_ptr<PanoramaLayer>> layers_;
+};
+
+Panorama::Panorama(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
+                   const MovingMast& mast, const JointBox& box, const PanoramaOptions& options) {
+  sensor.validate();
+  check(options);
+  impl_ = std::make_unique<Impl>(std::move(grid), sensor, mast, box, options);
+}
+
+Panorama::~Panorama() = default;
+
+double Panorama::gain(const JointPosition& q, double smoothing) const {
+  return impl_->gain(q, smoothing, nullptr);
+}
+
+double Panorama::gain(const JointPosition& q, Eigen::Vector3d& gradient, double smoothing) const {
+  return impl_->gain(q, smoothing, &gradient);
+}
+
+Eigen::Index Panorama::patch_count() const {
+  return static_cast<Eigen::Index>(impl_->patch_count());
+}
+
+void Panorama::patch_gains(const JointPosition& q, Eigen::VectorXd& gains,
+                           Eigen::MatrixXd* derivatives) const {
+  impl_->patch_gains(q, gains, derivatives);
+}
+
+double Panorama::patch_gain_bound() const { return impl_->patch_gain_bound(); }
+
+}  // namespace nbvopt

@@ -1,0 +1,160 @@
+#include "gain/panorama_layer.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gain/patch_culling.hpp"
+
+namespace nbvopt::detail {
+namespace {
+
+constexpr float kNothingHit = -10.0F;  // a radius that lies in no view
+/// Where a ray meets a face at a smaller sine, the face stands for more surface than the ray's
+/// neighbours see.
+constexpr double kGrazing = 0.05;
+constexpr std::size_t kPatchesATask = 64;
+
+/// Where something is that the sensor can gain from, at a distance that views from up to
+/// `moved_m` away may see: only where its u_old may exceed u_new.
+bool may_gain(const LayerCaster& caster, double u_old, double distance_m) {
+  constexpr double kRounding = 0.01;  // of relu and |x|
+  const double d_focal =
+      std::max(0.0, std::abs(distance_m - caster.focal_distance_m) - caster.layer_spacing_m);
+  const double u_distance = 1.0 - 2.0 / (1.0 + std::exp(d_focal));  // Equation (2)
+  return u_old > caster.weight_distance * u_distance - kRounding;
+}
+
+}  // namespace
+
+/// The rays of a run of patches and their hits, kept a thread.
+struct PanoramaLayer::Storage {
+  std::vector<double> x, y, z, range_min_m, range_max_m;
+  RayHits hits;
+};
+
+PanoramaLayer::PanoramaLayer(const LayerCaster& caster, const Eigen::Vector3d& centre_map_m)
+    : caster_(caster),
+      centre_m_(centre_map_m),
+      blocks_(std::make_unique_for_overwrite<HitBlock[]>(caster.directions.patch_count())),
+      is_cast_(caster.directions.patch_count(), 0),
+      radius_(caster.directions.radius),
+      nearness_(caster.directions.patch_count(), static_cast<float>(1.0 / caster.range_min_m)) {
+  if (caster.per_voxel) voxel_.resize(caster.directions.patch_count());
+}
+
+void PanoramaLayer::patches_in_view(const PanoramaView& view, double half_fov_h_rad,
+                                    double half_fov_v_rad, std::vector<std::uint32_t>& ids) const {
+  detail::patches_in_view(caster_.directions, radius_, nearness_, view, half_fov_h_rad,
+                          half_fov_v_rad, ids);
+}
+
+void PanoramaLayer::cast(std::span<const std::uint32_t> ids) {
+  thread_local std::vector<std::uint32_t> missing;
+  missing.clear();
+  for (const std::uint32_t id : ids) {
+    if (is_cast_[id] == 0) missing.push_back(id);
+    is_cast_[id] = 1;
+  }
+  if (missing.empty()) return;
+  const std::span<const std::uint32_t> all(missing);
+  // Voxels are numbered in the order of their patches.
+  const bool in_order = caster_.per_voxel || all.size() <= kPatchesATask;
+  const auto cast_from = [&](std::size_t first, std::size_t count) {
+    thread_local Storage storage;
+    cast_run(all.subspan(first, std::min(count, all.size() - first)), storage);
+  };
+  if (in_order) {
+    cast_from(0, all.size());
+    return;
+  }
+  const std::size_t tasks = (all.size() + kPatchesATask - 1) / kPatchesATask;
+  tbb::parallel_for(std::size_t{0}, tasks,
+                    [&](std::size_t task) { cast_from(task * kPatchesATask, kPatchesATask); });
+}
+
+void PanoramaLayer::cast_run(std::span<const std::uint32_t> ids, Storage& storage) {
+  constexpr std::size_t kRays = HitBlock::kSize;
+  const PanoramaDirections& directions = caster_.directions;
+  // A lever arm gives each patch an origin of its own.
+  const std::size_t run = caster_.has_lever ? 1 : ids.size();
+  for (std::size_t first = 0; first < ids.size(); first += run) {
+    storage.x.resize(run * kRays);
+    storage.y.resize(run * kRays);
+    storage.z.resize(run * kRays);
+    storage.range_min_m.assign(run * kRays, caster_.range_min_m);
+    storage.range_max_m.assign(run * kRays, caster_.range_max_m);
+    for (std::size_t i = 0; i < run; ++i) {
+      const std::size_t ray = ids[first + i] * kRays;
+      std::copy_n(&directions.x[ray], kRays, &storage.x[i * kRays]);
+      std::copy_n(&directions.y[ray], kRays, &storage.y[i * kRays]);
+      std::copy_n(&directions.z[ray], kRays, &storage.z[i * kRays]);
+    }
+    RayBundle rays;
+    rays.T_map_rays.linear() = caster_.R_map_base;
+    rays.T_map_rays.translation() = centre_m_;
+    if (caster_.has_lever) {
+      const std::uint32_t id = ids[first];
+      rays.T_map_rays.translation() +=
+          Eigen::Vector3f(directions.lever_x[id], directions.lever_y[id], directions.lever_z[id])
+              .cast<double>();
+    }
+    rays.x = storage.x;
+    rays.y = storage.y;
+    rays.z = storage.z;
+    rays.range_min_m = storage.range_min_m;
+    rays.range_max_m = storage.range_max_m;
+    rays.near_blocking = caster_.near_blocking;
+    cast_rays(caster_.grid, rays, caster_.occupied_uncertainty, storage.hits);
+    for (std::size_t i = 0; i < run; ++i) {
+      fill(ids[first + i], storage.hits, i * kRays);
+      if (caster_.per_voxel) number_voxels(ids[first + i], storage.hits, i * kRays);
+    }
+  }
+}
+
+void PanoramaLayer::fill(std::uint32_t id, const RayHits& hits, std::size_t first) {
+  const PanoramaDirections& directions = caster_.directions;
+  HitBlock& block = blocks_[id];
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < HitBlock::kSize; ++i) {
+    const std::size_t k = first + i;
+    const double distance_m = hits.distance_m[k];
+    const Eigen::Vector3d direction(hits.direction_x[k], hits.direction_y[k], hits.direction_z[k]);
+    Eigen::Vector3d area = Eigen::Vector3d::Zero();
+    if (hits.kind[k] >= HitKind::unknown && may_gain(caster_, hits.uncertainty[k], distance_m)) {
+      nearest_m = std::min(nearest_m, distance_m);
+      const double seen =
+          directions.solid_angle[id * HitBlock::kSize + i] * distance_m * distance_m;
+      const int axis = (static_cast<int>(hits.face[k]) - 1) / 2;
+      if (hits.face[k] == Face::inside || std::abs(direction[axis]) < kGrazing) {
+        area = seen * direction;
+      } else {
+        area[axis] = seen / direction[axis];
+      }
+    }
+    block.x[i] = static_cast<float>(directions.lever_x[id] + distance_m * direction.x());
+    block.y[i] = static_cast<float>(directions.lever_y[id] + distance_m * direction.y());
+    block.z[i] = static_cast<float>(directions.lever_z[id] + distance_m * direction.z());
+    block.area_x[i] = static_cast<float>(area.x());
+    block.area_y[i] = static_cast<float>(area.y());
+    block.area_z[i] = static_cast<float>(area.z());
+    block.u_old[i] = hits.uncertainty[k];
+    block.farthest_m[i] = hits.face[k] == Face::inside ? static_cast<float>(caster_.range_min_m)
+                                                       : std::numeric_limits<float>::max();
+  }
+  if (std::isinf(nearest_m)) radius_[id] = kNothingHit;
+  nearness_[id] = static_cast<float>(1.0 / nearest_m);
+}
+
+void PanoramaLayer::number_voxels(std::uint32_t id, const RayHits& hits, std::size_t first) {
+  for (std::size_t i = 0; i < HitBlock::kSize; ++i) {
+    const auto next = static_cast<std::uint32_t>(voxel_numbers_.size());
+    voxel_[id][i] = voxel_numbers_.try_emplace(packed(hits.voxel[first + i]), next).first->second;
+  }
+}
+
+}  // namespace nbvopt::detail
