@@ -21,7 +21,7 @@ Point ShiftedPeriod::wrapped(const Point& x) const {
     if (x[i] < own.lower[i]) result[i] += objective_.period(i);
     if (x[i] > own.upper[i]) result[i] -= objective_.period(i);
   }
-  return own.clamp(result);  // adding the period rounds
+  return own.clamp(result);  // the period and the box's width may differ by rounding
 }
 
 void ShiftedPeriod::values(std::span<const Point> points, std::span<double> values) const {

@@ -102,7 +102,7 @@ std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<C
 }
 
 void StrategySearch::judge(const std::vector<Candidate>& candidates) {
-  must_end();
+  must_end();  // the last local search may have been cut short
   reserved_evaluations_ = 0;
   for (const Candidate& candidate : candidates) {
     const bool is_first = &candidate == &candidates.front();

@@ -25,12 +25,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// The first coordinate's value; the first coordinate may turn. Counts its evaluations.
 class FirstCoordinate final : public Objective {
  public:
-  explicit FirstCoordinate(Box box, bool turns = false) : box_(std::move(box)), turns_(turns) {}
+  explicit FirstCoordinate(Box box, double period = 0.0) : box_(std::move(box)), period_(period) {}
 
   const Box& box() const override { return box_; }
-  double period(Eigen::Index i) const override {
-    return turns_ && i == 0 ? box_.upper[0] - box_.lower[0] : 0.0;
-  }
+  double period(Eigen::Index i) const override { return i == 0 ? period_ : 0.0; }
   double value(const Point& x) const override {
     EXPECT_TRUE(box_.contains(x)) << x.transpose();
     ++evaluations;
@@ -46,7 +44,7 @@ class FirstCoordinate final : public Objective {
 
  private:
   Box box_;
-  bool turns_;
+  double period_;
 };
 
 Point point(std::initializer_list<double> coordinates) {
@@ -77,7 +75,7 @@ TEST(StartPoints, Are27And48InThreeCoordinates) {
 }
 
 TEST(StartPoints, HaveNoPointTwice) {
-  const FirstCoordinate f({point({0, 1, 0}), point({1, 1, 1})}, true);
+  const FirstCoordinate f({point({0, 1, 0}), point({1, 1, 1})}, 1.0);
   for (const int edge_points : {0, 1, 2, 3, 12}) {
     std::vector<std::vector<double>> points = lists(start_points(f, edge_points));
     std::sort(points.begin(), points.end());
@@ -113,9 +111,9 @@ TEST(SeparatePoints, SkipPointsNearABetterOneInSharesOfTheBox) {
 TEST(SeparatePoints, MeasureTheShortWayRound) {
   const Box box{point({0}), point({1})};
   const Eigen::MatrixXd points = (Eigen::MatrixXd(1, 2) << 0.02, 0.98).finished();
-  EXPECT_THAT(separate_points(FirstCoordinate(box, true), points, std::vector{1.0, 2.0}, 0.1, 9),
+  EXPECT_THAT(separate_points(FirstCoordinate(box, 1.0), points, std::vector{1.0, 2.0}, 0.1, 9),
               ElementsAre(1));
-  EXPECT_THAT(separate_points(FirstCoordinate(box, false), points, std::vector{1.0, 2.0}, 0.1, 9),
+  EXPECT_THAT(separate_points(FirstCoordinate(box), points, std::vector{1.0, 2.0}, 0.1, 9),
               ElementsAre(1, 0));
 }
 
@@ -126,7 +124,7 @@ TEST(SeparatePoints, IgnoreFrozenCoordinatesAndKeepTheOrderOfTies) {
 }
 
 TEST(ShiftedPeriod, HasItsCentreInTheMiddleAndEvaluatesInTheOwnBox) {
-  const FirstCoordinate f({point({-kPi, 0}), point({kPi, 1})}, true);
+  const FirstCoordinate f({point({-kPi, 0}), point({kPi, 1})}, 2.0 * kPi);
   for (int i = 0; i <= 1000; ++i) {
     const Point centre = point({std::lerp(-kPi, kPi, i / 1000.0), 0.3});
     const ShiftedPeriod shifted(f, centre);
@@ -140,8 +138,20 @@ TEST(ShiftedPeriod, HasItsCentreInTheMiddleAndEvaluatesInTheOwnBox) {
   }
 }
 
+TEST(ShiftedPeriod, StaysInTheOwnBoxToTheLastBit) {
+  for (int i = 0; i < 1000; ++i) {
+    const double lower = 0.003 * i;
+    const double upper = lower + 2.0 * kPi * (1.0 - 1e-15);  // a few last bits short of a period
+    const FirstCoordinate f({point({lower}), point({upper})}, 2.0 * kPi);
+    const ShiftedPeriod shifted(f, point({lower}));
+    for (const double x : {std::nextafter(lower, -10.0), std::nextafter(upper, 30.0)}) {
+      EXPECT_TRUE(f.box().contains(shifted.wrapped(point({x})))) << i;
+    }
+  }
+}
+
 TEST(ShiftedPeriod, LeavesOtherCoordinatesAndBatchesAsTheyAre) {
-  const FirstCoordinate f({point({0}), point({1})}, true);
+  const FirstCoordinate f({point({0}), point({1})}, 1.0);
   const ShiftedPeriod shifted(f, point({0.25}));
   std::vector<double> values(2);
   shifted.values(std::vector<Point>{point({-0.25}), point({0.5})}, values);

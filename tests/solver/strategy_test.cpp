@@ -86,7 +86,6 @@ bool has_evaluated(const TextbookProblem& problem, const Point& x) {
                      [&](const Record& record) { return record.x == x; });
 }
 
-/// Where the surrogate searched; the last of the chain was searched globally.
 double best_value(const std::vector<Record>& records) {
   double best = -std::numeric_limits<double>::infinity();
   for (const Record& record : records) best = std::max(best, record.value);
@@ -172,13 +171,29 @@ TEST(Strategy, GlobalOnTheCheapestSurrogateLocalOnTheFirstPolishOnTheObjective) 
                     HasSubstr("of local nlopt:lbfgs from 6 starts"), HasSubstr("nlopt:sbplx")));
 }
 
-TEST(Strategy, EvaluatesNoPointTwiceOnTheObjective) {
-  const TextbookProblem problem(rastrigin_on_a_face());
-  solve(problem, request_from(Eigen::Vector2d(-3.2, 0.1)));
-  const std::vector<Record>& records = problem.records();
+void expect_no_point_twice(const std::vector<Record>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(records[i].x, records[j].x) << i << " " << j;
   }
+}
+
+TEST(Strategy, EvaluatesNoPointTwice) {
+  for (const Point& start : {Point(Eigen::Vector2d(-3.2, 0.1)), Point(Eigen::Vector2d(5, -4))}) {
+    const TextbookProblem problem(rastrigin_on_a_face());
+    solve(problem, request_from(start));
+    expect_no_point_twice(problem.records());
+    expect_no_point_twice(problem.surrogate()->surrogate()->records());
+  }
+}
+
+TEST(Strategy, AsksNoSurrogateWhereNothingCanMove) {
+  Textbook textbook = rastrigin_on_a_face();
+  textbook.box.upper = textbook.box.lower;
+  const TextbookProblem problem(textbook);
+  const SolveResult result = solve(problem, request_from(textbook.box.lower));
+  EXPECT_EQ(result.status, SolveStatus::converged);
+  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_EQ(result.surrogate_evaluations, 0);
 }
 
 TEST(Strategy, LeavesStagesOut) {
@@ -303,6 +318,19 @@ TEST(Strategy, JudgesTheBestSoFarWhenTimeRunsOut) {
   EXPECT_LE(problem.surrogate()->records().size(), 1U);
   EXPECT_LE(problem.records().size(), 2U);
   expect_best_surrogate_point_judged(problem);
+}
+
+TEST(Strategy, SaysThatTimeRanOutInItsLastLocalSearch) {
+  TextbookProblem problem(rastrigin_on_a_face());
+  StrategyOptions options;
+  options.polish.clear();
+  options.local_starts = 1;
+  SolveRequest request = request_from(Eigen::Vector2d(-3.2, 0.1));
+  request.stop.deadline = StopRule::Clock::now() + std::chrono::milliseconds(50);
+  problem.surrogate()->before_evaluation = [&](std::size_t) {
+    std::this_thread::sleep_until(*request.stop.deadline);
+  };
+  EXPECT_EQ(solve(problem, request, options).status, SolveStatus::time_limit);
 }
 
 TEST(Strategy, LetsExceptionsOfSurrogatesThrough) {
