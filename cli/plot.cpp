@@ -6,6 +6,7 @@
 
 #include "cli/canvas.hpp"
 #include "cli/plot_gain.hpp"
+#include "cli/plot_landscape.hpp"
 #include "cli/plot_map.hpp"
 #include "cli/plot_style.hpp"
 #include "core/atomic_file.hpp"
@@ -16,18 +17,23 @@ namespace {
 
 constexpr double kPixelsPerPoint = 2.0;
 constexpr double kPageWidth = 1160.0;
-constexpr double kPageHeight = 740.0;
+constexpr double kPageHeight = 1066.0;
 constexpr Rectangle kMapPanel{72.0, 108.0, 560.0, 560.0};
 constexpr Rectangle kGainPanel{728.0, 220.0, 392.0, 304.0};
+constexpr Rectangle kLandscapePanel{72.0, 774.0, 958.0, 200.0};
 constexpr double kRight = 672.0;  ///< where the right-hand column starts
 
 void draw_title(Canvas& canvas, const PlotInput& input, const MapSlice& slice) {
   const PlanResult& result = input.result;
+  const std::string surrogate =
+      result.surrogate_evaluations > 0
+          ? " and " + std::to_string(result.surrogate_evaluations) + " by its surrogate"
+          : "";
   canvas.text({24.0, 42.0}, "Where should the camera look next?", style::title());
   canvas.text({24.0, 63.0},
               result.solver + " solver, " + std::to_string(result.evaluations) +
                   " views judged by the " + input.evaluator.name() + " gain (" +
-                  to_string(input.robot.sensor.counting) + ") in " +
+                  to_string(input.robot.sensor.counting) + ")" + surrogate + " in " +
                   decimal(result.search_time_ms, 1) + " ms",
               style::note());
   canvas.text({kMapPanel.x, kMapPanel.y - 8.0}, "Map from above", style::heading());
@@ -111,7 +117,7 @@ void draw_legend(Canvas& canvas, const PlotInput& input) {
   }
   if (!input.candidate_pans_rad.empty()) {
     canvas.disc({kRight + 12.0, kTop + 86.0}, 3.0, style::kPaper, {style::kInk, 1.2});
-    canvas.text({kRight + 32.0, kTop + 90.0}, "pan angles of the grid", style::body());
+    canvas.text({kRight + 32.0, kTop + 90.0}, "pan angles of the paper's grid", style::body());
   }
 }
 
@@ -127,6 +133,11 @@ void write_plot(const PlotInput& input, const std::filesystem::path& path) {
               style::heading());
   draw_gain(canvas, kGainPanel, input);
   draw_legend(canvas, input);
+  canvas.text({kLandscapePanel.x, kLandscapePanel.y - 10.0},
+              "Gain over pan and tilt, at the chosen height of " +
+                  decimal(input.landscape.height_m, 3) + " m",
+              style::heading());
+  draw_landscape(canvas, kLandscapePanel, input);
   write_file_atomically(path, canvas.png());
 }
 

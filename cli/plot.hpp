@@ -1,10 +1,11 @@
 // The picture of an answer: what the robot knows around it, where its camera looks and should
-// look, and what other pan angles would have gained.
+// look, what other pan and tilt angles would have gained, and how the search went.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
+#include "cli/landscape.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/planner/planner.hpp"
@@ -18,8 +19,9 @@ struct PlotInput {
   const ViewEvaluator& evaluator;  ///< judges the pan angles of the gain chart
   const Robot& robot;
   const PlanRequest& request;
-  const PlanResult& result;
-  std::vector<double> candidate_pans_rad = {};  ///< marked on the gain chart
+  const PlanResult& result;  ///< with its trace
+  const GainLandscape& landscape;
+  std::vector<double> candidate_pans_rad = {};  ///< the pans of the paper's grid
 };
 
 /// Draws the picture and writes it as PNG, whole or not at all. Throws InputError when the file

@@ -113,7 +113,7 @@ void draw_views(Canvas& canvas, const TopView& view, const PlotInput& input) {
 }
 
 /// An arrow head along the base's x axis.
-void draw_robot(Canvas& canvas, const TopView& view, const Transform& T_map_base) {
+void draw_robot(Canvas& canvas, const TopView& view, const Transform& T_map_base, Colour colour) {
   const Eigen::Vector2d at = view.to_page(T_map_base.translation().head<2>());
   const Eigen::Vector3d x_map = T_map_base.linear().col(0);
   const Eigen::Vector2d forward = Eigen::Vector2d(x_map.x(), -x_map.y()).stableNormalized();
@@ -121,7 +121,7 @@ void draw_robot(Canvas& canvas, const TopView& view, const Transform& T_map_base
   const Polygon arrow{at + 15.0 * forward, at - 10.0 * forward + 10.0 * right, at - 5.0 * forward,
                       at - 10.0 * forward - 10.0 * right};
   canvas.stroke_closed(arrow, {style::kPaper, 4.0});
-  canvas.fill(arrow, style::kInk);
+  canvas.fill(arrow, colour);
 }
 
 void draw_scale_bar(Canvas& canvas, const TopView& view) {
@@ -177,7 +177,10 @@ void draw_map(Canvas& canvas, const Rectangle& panel, const PlotInput& input,
   canvas.clipped(panel, [&] {
     draw_voxels(canvas, view, input.grid, slice);
     draw_views(canvas, view, input);
-    draw_robot(canvas, view, input.request.T_map_base);
+    if (!input.request.base_twist.is_zero()) {
+      draw_robot(canvas, view, input.result.T_map_base, style::kChosen);
+    }
+    draw_robot(canvas, view, input.request.T_map_base, style::kCurrent);
     draw_scale_bar(canvas, view);
   });
   draw_axes(canvas, view);

@@ -20,6 +20,10 @@ inline constexpr Colour kCurrent = kInk;
 inline constexpr Colour kChosen = rgb(0x0B5FA5);
 inline constexpr Colour kUnknownGain = rgb(0xB8C2CC);
 inline constexpr Colour kOccupiedGain = rgb(0xE69F00);
+inline constexpr Colour kPath = rgb(0xFF7A45);  ///< of the search, over the colours of gains
+
+/// The colour of a share of the greatest gain, in [0, 1]: viridis, whose lightness grows evenly.
+Colour gain_colour(double share);
 
 inline Stroke current_stroke() { return {kCurrent, 1.5, {5.0, 3.5}}; }
 inline Stroke chosen_stroke() { return {kChosen, 2.0}; }

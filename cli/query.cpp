@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "cli/landscape.hpp"
 #include "cli/plot.hpp"
 #include "cli/query_answer.hpp"
+#include "cli/solver_arguments.hpp"
+#include "cli/trace.hpp"
 #include "cli/view_arguments.hpp"
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
-#include "nbvopt/solver/grid_coordinates.hpp"
 #include "nbvopt/solver/registry.hpp"
 
 namespace nbvopt {
@@ -26,16 +28,14 @@ constexpr std::int64_t kMaxWhole = std::numeric_limits<std::int64_t>::max();
 struct QueryOptions {
   std::string map_file;
   Transform T_map_base = Transform::Identity();
+  BaseTwist base_twist;
   double pan_rad = 0.0;
   double tilt_rad = 0.0;
   std::optional<double> height_m;  ///< none: the mast's lowest
   double motion_time_s = 0.0;
   ViewArguments view;
   std::optional<double> occupied_uncertainty;  ///< none: as the robot says
-  std::string solver = "grid";
-  double step_pan_rad = 0.8;
-  double step_tilt_rad = 0.0;
-  double step_height_m = 0.0;
+  SolverArguments solver;
   double min_gain = PlanRequest{}.min_gain;
   std::int64_t seed = 1;
   std::optional<double> time_limit_ms;
@@ -43,13 +43,9 @@ struct QueryOptions {
   bool json = false;
   std::string json_file;
   std::string plot_file;
+  std::string trace_file;
+  std::string landscape_file;
 };
-
-void check_step(const std::string& option, double step, const std::string& unit) {
-  if (step >= 0.0) return;
-  throw InputError(option + " is " + format_number(step) + unit +
-                   ", it must be 0 (keeps the joint) or more");
-}
 
 void check(const QueryOptions& options) {
   if (options.motion_time_s < 0.0) {
@@ -62,11 +58,9 @@ void check(const QueryOptions& options) {
     throw InputError("--time-limit-ms is " + format_number(*options.time_limit_ms) +
                      ", it must be greater than 0 and at most " + format_number(kLongestMs));
   }
-  check_step("--step-pan", options.step_pan_rad, " rad");
-  check_step("--step-tilt", options.step_tilt_rad, " rad");
-  check_step("--step-height", options.step_height_m, " m");
   // A search whose answer could not be kept would be in vain.
-  for (const std::string& file : {options.json_file, options.plot_file}) {
+  for (const std::string& file :
+       {options.json_file, options.plot_file, options.trace_file, options.landscape_file}) {
     if (!file.empty()) require_writable(file);
   }
 }
@@ -82,15 +76,21 @@ Robot robot_of(const QueryOptions& options) {
   return robot;
 }
 
+bool wants_landscape(const QueryOptions& options) {
+  return !options.landscape_file.empty() || !options.plot_file.empty();
+}
+
 PlanRequest request_of(const QueryOptions& options, const Robot& robot) {
   PlanRequest request;
   request.T_map_base = options.T_map_base;
+  request.base_twist = options.base_twist;
   request.joints = {options.pan_rad, options.tilt_rad,
                     options.height_m.value_or(robot.mast.height_min_m)};
   request.motion_time_s = options.motion_time_s;
   request.min_gain = options.min_gain;
   request.seed = static_cast<std::uint64_t>(options.seed);
   request.stop.max_evaluations = options.max_evaluations;
+  request.record_trace = !options.trace_file.empty() || wants_landscape(options);
   if (options.time_limit_ms) {
     request.stop.deadline = StopRule::Clock::now() +
                             std::chrono::duration_cast<StopRule::Clock::duration>(
@@ -99,20 +99,30 @@ PlanRequest request_of(const QueryOptions& options, const Robot& robot) {
   return request;
 }
 
-/// The pans of the paper's grid; none with other solvers.
-std::vector<double> candidate_pans(const QueryOptions& options, const JointBox& box) {
-  constexpr double kMostToDraw = 200.0;
-  const double width_rad = box.max[0] - box.min[0];
-  if (options.solver != "grid" || options.step_pan_rad <= width_rad / kMostToDraw) return {};
-  return grid_coordinates(box.min[0], box.max[0], options.step_pan_rad);
+/// Writes the files that explain the answer.
+void write_explanations(const QueryOptions& options, const Robot& robot, const VoxelGrid& grid,
+                        const ViewEvaluator& evaluator, const QueryAnswer& answer) {
+  const PlanRequest& request = answer.request;
+  const PlanResult& result = answer.result;
+  if (!options.trace_file.empty()) {
+    write_file_atomically(options.trace_file, to_json_lines(result.trace));
+  }
+  if (!wants_landscape(options)) return;
+  const GainLandscape landscape = sample_landscape(evaluator, Mast(robot.mast), request, result);
+  const std::vector<double> pans_rad = candidate_pans(options.solver, result.box);
+  if (!options.landscape_file.empty()) {
+    write_file_atomically(options.landscape_file,
+                          to_json(landscape, request, result, pans_rad).dump() + '\n');
+  }
+  if (!options.plot_file.empty()) {
+    write_plot({grid, evaluator, robot, request, result, landscape, pans_rad}, options.plot_file);
+  }
 }
 
 void run_query(const QueryOptions& options) {
   check(options);
   const Robot robot = robot_of(options);
-  const auto solver = make_solver(
-      options.solver,
-      {.grid_steps = {options.step_pan_rad, options.step_tilt_rad, options.step_height_m}});
+  const auto solver = make_solver(options.solver);
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
@@ -138,11 +148,7 @@ void run_query(const QueryOptions& options) {
   if (!options.json_file.empty()) {
     write_file_atomically(options.json_file, to_text(to_json(answer)));
   }
-  if (!options.plot_file.empty()) {
-    write_plot({*grid, *evaluator, robot, answer.request, answer.result,
-                candidate_pans(options, answer.result.box)},
-               options.plot_file);
-  }
+  write_explanations(options, robot, *grid, *evaluator, answer);
   if (options.json) {
     print_answer(to_text(to_json(answer)));
   } else {
@@ -173,16 +179,22 @@ void add_situation(CLI::App& query, QueryOptions& options) {
   add_number(query, "--tilt", options.tilt_rad, "RAD", "tilt now, positive looks up");
   add_number(query, "--height", options.height_m, "M",
              "height now, above the base [the mast's lowest]");
+  query
+      .add_option_function<std::string>(
+          "--base-velocity",
+          [&options](const std::string& text) {
+            const auto v = numbers_argument("--base-velocity", text, {3}, "VX,VY,WZ");
+            options.base_twist = {v[0], v[1], v[2]};
+          },
+          "the base's velocity in its own frame, which it keeps while the joints move: m/s and "
+          "rad/s")
+      ->type_name("VX,VY,WZ")
+      ->default_str("0,0,0");
 }
 
 void add_search(CLI::App& query, QueryOptions& options) {
   query.option_defaults()->group("How to search");
-  query.add_option("--solver", options.solver, "how to search")
-      ->type_name("NAME")
-      ->capture_default_str();
-  add_number(query, "--step-pan", options.step_pan_rad, "RAD", "of grid; 0 keeps the pan");
-  add_number(query, "--step-tilt", options.step_tilt_rad, "RAD", "of grid; 0 keeps the tilt");
-  add_number(query, "--step-height", options.step_height_m, "M", "of grid; 0 keeps the height");
+  add_solver_arguments(query, options.solver);
   add_number(query, "--min-gain", options.min_gain, "GAIN",
              "with less than this to be had, stay and say no_gain_in_reach");
   add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
@@ -206,8 +218,16 @@ void add_outputs(CLI::App& query, QueryOptions& options) {
   query.add_flag("--json", options.json, "print one JSON object instead of text");
   query.add_option("--json-out", options.json_file, "also write the JSON object to a file")
       ->type_name("FILE");
-  query.add_option("--plot", options.plot_file, "draw the map, the views and the gain")
+  query.add_option("--plot", options.plot_file, "draw the map, the views, the gain and the search")
       ->type_name("OUT.png");
+  query
+      .add_option("--trace", options.trace_file,
+                  "write every evaluation of the search, a JSON object a line")
+      ->type_name("FILE");
+  query
+      .add_option("--landscape", options.landscape_file,
+                  "write the gain over pan and tilt at the chosen height, as JSON")
+      ->type_name("FILE");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cli/query_answer.hpp"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
@@ -11,6 +12,15 @@ Json pose_json(const Transform& T_map_sensor) {
   const Eigen::Vector3d p = T_map_sensor.translation();
   const Eigen::Quaterniond q(T_map_sensor.linear());
   return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+double yaw_rad(const Transform& T_map_base) {
+  return std::atan2(T_map_base.linear()(1, 0), T_map_base.linear()(0, 0));
+}
+
+Json base_json(const Transform& T_map_base) {
+  const Eigen::Vector3d p = T_map_base.translation();
+  return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}, {"yaw", yaw_rad(T_map_base)}};
 }
 
 [[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
@@ -39,35 +49,46 @@ std::string gain_line(const PlanResult& result) {
               100.0 * more / result.current.gain);
 }
 
+std::string evaluation_count(const PlanResult& result) {
+  const std::string exact = std::to_string(result.evaluations) + " evaluations";
+  if (result.surrogate_evaluations == 0) return exact;
+  return exact + " and " + std::to_string(result.surrogate_evaluations) + " of the surrogate";
+}
+
 }  // namespace
 
 Json to_json(const QueryAnswer& answer) {
   const PlanResult& result = answer.result;
-  return {{"pan", result.joints.pan_rad},
-          {"tilt", result.joints.tilt_rad},
-          {"height", result.joints.height_m},
-          {"pan_wrapped", wrap_angle(result.joints.pan_rad)},
-          {"gain", result.view.gain},
-          {"current_gain", result.current.gain},
-          {"unknown_gain", result.view.unknown_gain},
-          {"occupied_gain", result.view.occupied_gain},
-          {"unknown_rays", result.view.unknown_rays},
-          {"occupied_rays", result.view.occupied_rays},
-          {"free_rays", result.view.free_rays},
-          {"status", to_string(result.status)},
-          {"message", result.message},
-          {"evaluations", result.evaluations},
-          {"time_ms", result.search_time_ms},
-          {"map_load_ms", answer.map_load_ms},
-          {"grid_ms", answer.grid_ms},
-          {"move_time_s", result.move_time_s},
-          {"solver", result.solver},
-          {"seed", result.seed},
-          {"evaluator", answer.evaluator},
-          {"counting", to_string(answer.counting)},
-          {"active_bounds", result.active_bounds},
-          {"warnings", result.warnings},
-          {"pose", pose_json(result.T_map_sensor)}};
+  Json json{{"pan", result.joints.pan_rad},
+            {"tilt", result.joints.tilt_rad},
+            {"height", result.joints.height_m},
+            {"pan_wrapped", wrap_angle(result.joints.pan_rad)},
+            {"gain", result.view.gain},
+            {"current_gain", result.current.gain},
+            {"unknown_gain", result.view.unknown_gain},
+            {"occupied_gain", result.view.occupied_gain},
+            {"unknown_rays", result.view.unknown_rays},
+            {"occupied_rays", result.view.occupied_rays},
+            {"free_rays", result.view.free_rays},
+            {"status", to_string(result.status)},
+            {"message", result.message},
+            {"evaluations", result.evaluations},
+            {"surrogate_evaluations", result.surrogate_evaluations},
+            {"time_ms", result.search_time_ms},
+            {"map_load_ms", answer.map_load_ms},
+            {"grid_ms", answer.grid_ms},
+            {"move_time_s", result.move_time_s},
+            {"solver", result.solver},
+            {"seed", result.seed},
+            {"evaluator", answer.evaluator},
+            {"counting", to_string(answer.counting)},
+            {"active_bounds", result.active_bounds},
+            {"warnings", result.warnings},
+            {"pose", pose_json(result.T_map_sensor)}};
+  if (!answer.request.base_twist.is_zero()) {
+    json["base_on_arrival"] = base_json(result.T_map_base);
+  }
+  return json;
 }
 
 std::string to_text(const QueryAnswer& answer) {
@@ -90,10 +111,15 @@ std::string to_text(const QueryAnswer& answer) {
   if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';
   text += limit_s > 0.0 ? line("move    %.2f s of %.2f s", result.move_time_s, limit_s)
                         : line("move    %.2f s, no limit", result.move_time_s);
-  text += line("took    %.1f ms for %lld evaluations (%s, %s, %s); map read %.1f ms, grid %.1f ms",
-               result.search_time_ms, static_cast<long long>(result.evaluations),
-               result.solver.c_str(), answer.evaluator.c_str(), to_string(answer.counting).c_str(),
-               answer.map_load_ms, answer.grid_ms);
+  if (!answer.request.base_twist.is_zero()) {
+    const Eigen::Vector3d base_m = result.T_map_base.translation();
+    text += line("base    at %.3f, %.3f, %.3f m in the map, yaw %.3f rad, when the joints arrive",
+                 base_m.x(), base_m.y(), base_m.z(), yaw_rad(result.T_map_base));
+  }
+  text += line("took    %.1f ms for %s (%s, %s, %s); map read %.1f ms, grid %.1f ms",
+               result.search_time_ms, evaluation_count(result).c_str(), result.solver.c_str(),
+               answer.evaluator.c_str(), to_string(answer.counting).c_str(), answer.map_load_ms,
+               answer.grid_ms);
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/canvas.hpp"
 #include "cli/plot_axis.hpp"
+#include "cli/plot_style.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -19,6 +20,16 @@ TEST(Decimal, HasATrueMinusSignAndNoNegativeZero) {
   EXPECT_EQ(decimal(-1.25, 1), "\u22121.2");
   EXPECT_EQ(decimal(-0.001, 2), "0.00");
   EXPECT_EQ(decimal(3.0, 0), "3");
+}
+
+TEST(GainColour, GrowsLighterWithTheGain) {
+  double before = -1.0;
+  for (double share = 0.0; share <= 1.0; share += 0.01) {
+    const Colour colour = style::gain_colour(share);
+    const double luma = 0.2126 * colour.red + 0.7152 * colour.green + 0.0722 * colour.blue;
+    EXPECT_GT(luma, before) << share;
+    before = luma;
+  }
 }
 
 TEST(Ticks, AreRoundAndInside) {
@@ -51,7 +62,8 @@ class Plot : public testing::Test {
     result_.T_map_sensor = T_map_sensor(request_, mast, request_.joints);
     result_.view = result_.current = evaluator->evaluate(result_.T_map_sensor);
     result_.move_time_s = 0.0;
-    write_plot({*grid, *evaluator, robot, request_, result_, {-0.5, 0.5}}, path);
+    const GainLandscape landscape = sample_landscape(*evaluator, mast, request_, result_);
+    write_plot({*grid, *evaluator, robot, request_, result_, landscape, {-0.5, 0.5}}, path);
   }
 
   std::string written() const {
@@ -82,6 +94,25 @@ TEST_F(Plot, ShowsTheMap) {
   map.finish_writing();
   write(map, path_);
   EXPECT_NE(written(), empty);
+}
+
+TEST_F(Plot, ShowsTheSearch) {
+  result_.box = {{-1.0, -0.5, 0.2}, {1.0, 0.5, 0.6}};
+  write(UncertaintyMap(0.1), path_);
+  const std::string without = written();
+  result_.trace = {{EvaluationKind::surrogate, {0.6, 0.3, 0.4}, 5.0}};
+  write(UncertaintyMap(0.1), path_);
+  EXPECT_NE(written(), without);
+}
+
+TEST_F(Plot, ShowsWhereAMovingBaseArrives) {
+  result_.box = {{-1.0, -0.5, 0.2}, {1.0, 0.5, 0.6}};
+  request_.base_twist = {0.2, 0.0, 0.0};
+  write(UncertaintyMap(0.1), path_);
+  const std::string here = written();
+  result_.T_map_base = base_pose(-1.0, 0.0, 0.0, 0.0);
+  write(UncertaintyMap(0.1), path_);
+  EXPECT_NE(written(), here);
 }
 
 TEST_F(Plot, DrawsAPanThatCannotMove) {

@@ -1,46 +1,28 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/command_line.hpp"
+#include "cli/query_command.hpp"
 
 namespace nbvopt::test {
 namespace {
 
-using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using Arguments = std::vector<std::string>;
-
-/// The arguments of a query in the room, from its middle, with these added.
-Arguments query(const std::string& map, const Arguments& more = {}) {
-  Arguments arguments{"query", map, "--base", "0,0,0", "--height", "0.4", "--motion-time", "0.5"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
-Arguments json_query(const std::string& map, const Arguments& more = {}) {
-  Arguments arguments = query(map, more);
-  arguments.emplace_back("--json");
-  return arguments;
-}
-
-/// The answer without what differs from run to run.
-json without_times(json answer) {
-  for (const char* key : {"time_ms", "map_load_ms", "grid_ms"}) answer.erase(key);
-  return answer;
-}
 
 TEST_F(CommandLine, QueryPrintsOneObjectWithTheDocumentedKeys) {
   const ProcessResult result = nbvopt_run(json_query(map_file));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const json answer = json::parse(result.out);
-  for (const char* key :
-       {"pan",          "tilt",          "height",        "gain",          "current_gain",
-        "status",       "message",       "evaluations",   "time_ms",       "map_load_ms",
-        "grid_ms",      "solver",        "seed",          "pan_wrapped",   "move_time_s",
-        "evaluator",    "counting",      "active_bounds", "warnings",      "pose",
-        "unknown_gain", "occupied_gain", "unknown_rays",  "occupied_rays", "free_rays"}) {
+  for (const char* key : {"pan",           "tilt",          "height",
+                          "gain",          "current_gain",  "status",
+                          "message",       "evaluations",   "surrogate_evaluations",
+                          "time_ms",       "map_load_ms",   "grid_ms",
+                          "solver",        "seed",          "pan_wrapped",
+                          "move_time_s",   "evaluator",     "counting",
+                          "active_bounds", "warnings",      "pose",
+                          "unknown_gain",  "occupied_gain", "unknown_rays",
+                          "occupied_rays", "free_rays"}) {
     EXPECT_TRUE(answer.contains(key)) << key;
   }
   EXPECT_EQ(answer["pose"]["position"].size(), 3U);
@@ -140,7 +122,7 @@ TEST_F(CommandLine, QueryDrawsAPicture) {
 
 TEST_F(CommandLine, QueryRefusesOutputFilesBeforeTheSearch) {
   // The map is missing, too: that the output is named shows that it was looked at first.
-  for (const char* option : {"--json-out", "--plot"}) {
+  for (const char* option : {"--json-out", "--plot", "--trace", "--landscape"}) {
     expect_refusal(nbvopt_run(query("none.ot", {option, folder / "none/x.png"})), 3, "none");
     expect_refusal(nbvopt_run(query("none.ot", {option, "/proc/x.png"})), 3, "/proc/x.png");
     expect_refusal(nbvopt_run(query("none.ot", {option, folder.path()})), 3, "is a folder");
@@ -246,22 +228,35 @@ TEST_P(QueryRefuses, InOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Syntax, QueryRefuses,
-    ::testing::Values(Refusal{{"--base", "0,0"}, 2, "--base: '0,0' has 2 numbers, write X,Y,YAW"},
-                      Refusal{{"--base", "0,0,0,0,0"}, 2, "--base: '0,0,0,0,0' has 5 numbers"},
-                      Refusal{{"--base", "0,0,"}, 2, "--base: '' is not a number"},
-                      Refusal{{"--base", "0,0,0deg"}, 2, "--base: '0deg' is not a number"},
-                      Refusal{{"--base", "0 0 0"}, 2, "--base: '0 0 0' is not a number"},
-                      Refusal{{"--tilt", "up"}, 2, "--tilt: 'up' is not a number"},
-                      Refusal{{"--pan", "--json"}, 2, "--pan: '--json' is not a number"},
-                      Refusal{{"--motion-time", "1s"}, 2, "--motion-time: '1s' is not a number"},
-                      Refusal{
-                          {"--max-evals", "1.5"}, 2, "--max-evals: '1.5' is not a whole number"},
-                      Refusal{{"--pan", "0", "--pan", "1"}, 2, "--pan"},
-                      Refusal{{"--solver", "magic"}, 2, "solver \"magic\""},
-                      Refusal{{"--evaluator", "magic"}, 2, "--evaluator"},
-                      Refusal{{"--step-pan", "-1"}, 3, "--step-pan"},
-                      Refusal{{"--time-limit-ms", "1e18"}, 3, "--time-limit-ms"},
-                      Refusal{{"another.ot"}, 2, "another.ot"}));
+    ::testing::Values(
+        Refusal{{"--base", "0,0"}, 2, "--base: '0,0' has 2 numbers, write X,Y,YAW"},
+        Refusal{{"--base", "0,0,0,0,0"}, 2, "--base: '0,0,0,0,0' has 5 numbers"},
+        Refusal{{"--base", "0,0,"}, 2, "--base: '' is not a number"},
+        Refusal{{"--base", "0,0,0deg"}, 2, "--base: '0deg' is not a number"},
+        Refusal{{"--base", "0 0 0"}, 2, "--base: '0 0 0' is not a number"},
+        Refusal{{"--tilt", "up"}, 2, "--tilt: 'up' is not a number"},
+        Refusal{{"--pan", "--json"}, 2, "--pan: '--json' is not a number"},
+        Refusal{{"--motion-time", "1s"}, 2, "--motion-time: '1s' is not a number"},
+        Refusal{{"--max-evals", "1.5"}, 2, "--max-evals: '1.5' is not a whole number"},
+        Refusal{{"--pan", "0", "--pan", "1"}, 2, "--pan"},
+        Refusal{{"--solver", "magic"}, 2, "solver \"magic\""},
+        Refusal{{"--evaluator", "magic"}, 2, "--evaluator"},
+        Refusal{{"--base-velocity", "0.1,0"},
+                2,
+                "--base-velocity: '0.1,0' has 2 numbers, write VX,VY,WZ"},
+        Refusal{{"--base-velocity", "fast"}, 2, "'fast' is not a number"},
+        Refusal{{"--global", "magic"}, 2, "global stage: solver \"magic\""},
+        Refusal{{"--local", "magic"}, 2, "local stage: solver \"magic\""},
+        Refusal{{"--polish", "magic"}, 2, "polish stage: solver \"magic\""},
+        Refusal{{"--polish", "grid"}, 2, "polish stage: solver grid"},
+        Refusal{{"--global", "none", "--local", "none", "--polish", "none"},
+                2,
+                "every stage is left out"},
+        Refusal{
+            {"--solver", "grid", "--polish", "nlopt:sbplx"}, 2, "--solver names a whole search"},
+        Refusal{{"--step-pan", "-1"}, 3, "--step-pan"},
+        Refusal{{"--time-limit-ms", "1e18"}, 3, "--time-limit-ms"},
+        Refusal{{"another.ot"}, 2, "another.ot"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, QueryRefuses,
@@ -269,6 +264,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{{"--base", "0,inf,0"}, 3, "--base is inf"},
                       Refusal{{"--base", "0,0,-inf"}, 3, "--base is -inf"},
                       Refusal{{"--base", "1e300,0,0"}, 3, "lattice"},
+                      Refusal{{"--base-velocity", "nan,0,0"}, 3, "--base-velocity is nan"},
+                      Refusal{{"--base-velocity", "0,0,inf"}, 3, "--base-velocity is inf"},
+                      Refusal{{"--base-velocity", "1e4,0,0"}, 3, "base_twist"},
                       Refusal{{"--pan", "nan"}, 3, "--pan is nan"},
                       Refusal{{"--pan", "inf"}, 3, "--pan is inf"},
                       Refusal{{"--tilt", "0.9"}, 3, "tilt is 0.9 rad"},

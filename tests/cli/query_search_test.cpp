@@ -1,0 +1,59 @@
+// How a query searches, and on what base.
+#include "cli/query_command.hpp"
+
+namespace nbvopt::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST_F(CommandLine, QueryRunsTheStrategyByName) {
+  const json answer = nbvopt_json(json_query(map_file, {"--solver", "auto"}));
+  EXPECT_EQ(answer["solver"], "auto");
+  EXPECT_GT(answer["surrogate_evaluations"], 0);
+  EXPECT_GE(answer["gain"], nbvopt_json(json_query(map_file))["gain"])
+      << "three joints do better than one";
+}
+
+TEST_F(CommandLine, QueryComposesASearchFromItsStages) {
+  const auto solver_of = [&](const Arguments& stages) {
+    return nbvopt_json(json_query(map_file, stages))["solver"].get<std::string>();
+  };
+  EXPECT_EQ(solver_of({"--global", "nlopt:crs2"}), "nlopt:crs2 + nlopt:lbfgs + nlopt:sbplx");
+  EXPECT_EQ(solver_of({"--local", "nlopt:slsqp"}), "nlopt:direct-l + nlopt:slsqp + nlopt:sbplx");
+  EXPECT_EQ(solver_of({"--polish", "nlopt:bobyqa"}), "nlopt:direct-l + nlopt:lbfgs + nlopt:bobyqa");
+  EXPECT_EQ(solver_of({"--global", "none", "--polish", "none"}), "nlopt:lbfgs");
+}
+
+TEST_F(CommandLine, QueryLeavesTheSurrogateOutWhereOnlyThePolishRuns) {
+  const json answer = nbvopt_json(
+      json_query(map_file, {"--global", "none", "--local", "none", "--polish", "nlopt:sbplx"}));
+  EXPECT_EQ(answer["surrogate_evaluations"], 0);
+  EXPECT_GT(answer["evaluations"], 1);
+  EXPECT_GE(answer["gain"], answer["current_gain"]);
+}
+
+TEST_F(CommandLine, QuerySaysWhereAMovingBaseWillBe) {
+  const json answer = nbvopt_json(json_query(map_file, {"--base-velocity", "0.2,-0.1,0"}));
+  const double time_s = answer["move_time_s"];
+  ASSERT_GT(time_s, 0.0);
+  const json& base = answer["base_on_arrival"];
+  EXPECT_NEAR(base["x"], 0.2 * time_s, 1e-12);
+  EXPECT_NEAR(base["y"], -0.1 * time_s, 1e-12);
+  EXPECT_EQ(base["z"], 0.0);
+  EXPECT_EQ(base["yaw"], 0.0);
+  EXPECT_NEAR(answer["pose"]["position"][0], base["x"], 1e-12);
+
+  const ProcessResult text = nbvopt_run(query(map_file, {"--base-velocity", "0.2,-0.1,0"}));
+  EXPECT_THAT(text.out, HasSubstr("\nbase    at "));
+}
+
+TEST_F(CommandLine, QuerySaysNothingOfABaseAtRest) {
+  const json rest = nbvopt_json(json_query(map_file, {"--base-velocity", "0,0,0"}));
+  EXPECT_FALSE(rest.contains("base_on_arrival"));
+  EXPECT_EQ(without_times(rest), without_times(nbvopt_json(json_query(map_file))));
+  EXPECT_THAT(nbvopt_run(query(map_file)).out, Not(HasSubstr("\nbase ")));
+}
+
+}  // namespace
+}  // namespace nbvopt::test
