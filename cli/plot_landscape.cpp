@@ -68,11 +68,11 @@ void draw_axes(Canvas& canvas, const Chart& chart) {
   for (const double tilt_rad : tilts.values) {
     const double y = chart.to_page(0.0, tilt_rad).y();
     canvas.stroke_open(Line{{panel.x - 4.0, y}, {panel.x, y}}, {style::kMutedInk, 1.0});
-    canvas.text({panel.x - 8.0, y + 4.0}, tilts.label(tilt_rad), style::note(Anchor::right));
+    canvas.text({panel.x - 12.0, y + 4.0}, tilts.label(tilt_rad), style::note(Anchor::right));
   }
   canvas.text({panel.x + 0.5 * panel.width, panel.bottom() + 34.0}, "pan (rad)",
               style::body(Anchor::centre));
-  canvas.upright_text({panel.x - 44.0, panel.y + 0.5 * panel.height}, "tilt (rad)",
+  canvas.upright_text({panel.x - 48.0, panel.y + 0.5 * panel.height}, "tilt (rad)",
                       style::body(Anchor::centre));
 }
 

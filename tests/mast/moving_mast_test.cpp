@@ -93,6 +93,20 @@ TEST(MovingMast, DrivesStraightAsTheTurnVanishes) {
   }
 }
 
+TEST(MovingMast, ArrivesAsLateAsItsSlowestJoint) {
+  constexpr double kStep = 1e-6;
+  const MovingMast moving(mast_with_lever(), tilted_base(), kArc, kNow);
+  for (const JointPosition& q : positions()) {
+    const Eigen::Vector3d gradient_s = moving.arrival_time_gradient(q);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+      const double before_s = moving.arrival_time_s(JointPosition::from(q.vector() - step));
+      const double after_s = moving.arrival_time_s(JointPosition::from(q.vector() + step));
+      EXPECT_NEAR(gradient_s[i], (after_s - before_s) / (2.0 * kStep), 1e-8);
+    }
+  }
+}
+
 /// The velocity of SE(3) that takes one pose to a near one, in the frame of the poses.
 struct Velocity {
   Eigen::Vector3d angular, linear;
