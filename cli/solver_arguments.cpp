@@ -21,8 +21,11 @@ void check_step(const std::string& option, double step, const std::string& unit)
                    ", it must be 0 (keeps the joint) or more");
 }
 
-void set_stage(std::string& stage, const std::optional<std::string>& name) {
-  if (name) stage = *name == kNoStage ? "" : *name;
+void set_stage(std::string& stage, const std::string& option,
+               const std::optional<std::string>& name) {
+  if (!name) return;
+  if (name->empty()) throw UsageError(option + " is empty: name a solver or none");
+  stage = *name == kNoStage ? "" : *name;
 }
 
 }  // namespace
@@ -61,9 +64,9 @@ std::unique_ptr<Solver> make_solver(const SolverArguments& arguments) {
         "--solver names a whole search and --global, --local, --polish compose one: give either");
   }
   StrategyOptions stages;
-  set_stage(stages.global, arguments.global);
-  set_stage(stages.local, arguments.local);
-  set_stage(stages.polish, arguments.polish);
+  set_stage(stages.global, "--global", arguments.global);
+  set_stage(stages.local, "--local", arguments.local);
+  set_stage(stages.polish, "--polish", arguments.polish);
   return make_strategy(stages);
 }
 

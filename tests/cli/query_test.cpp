@@ -248,6 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"--global", "magic"}, 2, "global stage: solver \"magic\""},
         Refusal{{"--local", "magic"}, 2, "local stage: solver \"magic\""},
         Refusal{{"--polish", "magic"}, 2, "polish stage: solver \"magic\""},
+        Refusal{{"--local", ""}, 2, "--local is empty"},
         Refusal{{"--polish", "grid"}, 2, "polish stage: solver grid"},
         Refusal{{"--global", "none", "--local", "none", "--polish", "none"},
                 2,
