@@ -115,7 +115,7 @@ SolveResult CeresLbfgsSolver::do_solve(const Objective& objective,
   ceres::GradientProblemSolver::Options options;
   options.line_search_direction_type = ceres::LBFGS;
   options.max_num_iterations = max_iterations(bounded_request.stop);
-  options.parameter_tolerance = tolerance_;
+  options.parameter_tolerance = tolerance_ * unit_box.unit_scale(objective).minCoeff();
   options.function_tolerance = kFunctionTolerance;
   options.logging_type = ceres::SILENT;
 
@@ -151,7 +151,7 @@ SolveResult CeresLmSolver::do_solve(const Objective& objective, const SolveReque
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = max_iterations(bounded_request.stop);
-  options.parameter_tolerance = tolerance_;
+  options.parameter_tolerance = tolerance_ * unit_box.unit_scale(objective).minCoeff();
   options.function_tolerance = kFunctionTolerance;
   options.logging_type = ceres::SILENT;
 

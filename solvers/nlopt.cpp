@@ -22,6 +22,9 @@
 namespace nbvopt {
 namespace {
 
+/// NLopt's own choice of a first step in a unit box.
+constexpr double kLargestStep = 0.25;
+
 struct Algorithm {
   std::string_view name;
   nlopt_algorithm native;
@@ -56,11 +59,11 @@ const Algorithm& algorithm(std::string_view name) {
 
 using NloptHandle = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
 
-NloptHandle create(nlopt_algorithm native, Eigen::Index dimension, double tolerance) {
-  NloptHandle handle(nlopt_create(native, static_cast<unsigned>(dimension)), &nlopt_destroy);
+NloptHandle create(nlopt_algorithm native, const Point& tolerance) {
+  NloptHandle handle(nlopt_create(native, static_cast<unsigned>(tolerance.size())), &nlopt_destroy);
   if (!handle) throw std::bad_alloc();
   // A step tolerance always: COBYLA can hang without one.
-  nlopt_set_xtol_abs1(handle.get(), tolerance);
+  nlopt_set_xtol_abs(handle.get(), tolerance.data());
   return handle;
 }
 
@@ -131,9 +134,10 @@ SolveStatus status_of(nlopt_result code) {
 }
 
 double checked_initial_step(double initial_step) {
-  if (initial_step >= 0.0 && initial_step <= 1.0) return initial_step;
+  if (std::isfinite(initial_step) && initial_step >= 0.0) return initial_step;
   std::ostringstream text;
-  text << "initial_step = " << initial_step << ": give a share of the box's width, from 0 to 1";
+  text << "initial_step = " << initial_step
+       << ": give length scales, 0 or more, or 0 for the solver's own choice";
   throw UsageError(text.str());
 }
 
@@ -156,17 +160,20 @@ SolveResult NloptSolver::do_solve(const Objective& objective, const SolveRequest
   TrackedObjective tracked(objective, bounded_request, {.gradient = uses_gradient});
   if (unit_box.dimension() == 0) return tracked.result(SolveStatus::converged);
 
-  const NloptHandle handle = create(native, unit_box.dimension(), tolerance_);
+  const Point scale = unit_box.unit_scale(objective);
+  const Point tolerance = tolerance_ * scale;
+  const NloptHandle handle = create(native, tolerance);
   Callback callback(tracked, unit_box, handle.get(), tracked.evaluate(request.start)->value);
   nlopt_set_min_objective(handle.get(), &Callback::call, &callback);
   nlopt_set_lower_bounds1(handle.get(), 0.0);
   nlopt_set_upper_bounds1(handle.get(), 1.0);
   nlopt_set_stopval(handle.get(), std::numeric_limits<double>::lowest());
   nlopt_set_maxeval(handle.get(), max_requests(bounded_request.stop));
-  if (initial_step_ > 0.0) nlopt_set_initial_step1(handle.get(), initial_step_);
+  const Point step = (initial_step_ * scale).cwiseMin(kLargestStep);
+  if (initial_step_ > 0.0) nlopt_set_initial_step(handle.get(), step.data());
   if (is_multistart) {
     const nlopt_algorithm local = uses_gradient ? NLOPT_LD_LBFGS : NLOPT_LN_BOBYQA;
-    nlopt_set_local_optimizer(handle.get(), create(local, unit_box.dimension(), tolerance_).get());
+    nlopt_set_local_optimizer(handle.get(), create(local, tolerance).get());
   }
   nlopt_srand(request.seed);  // the generator belongs to this thread
 

@@ -15,7 +15,8 @@ namespace nbvopt {
 class NloptSolver final : public Solver {
  public:
   /// `name` is one of the above after "nlopt:"; `tolerance` and `initial_step` as in SolverOptions.
-  /// Throws UsageError when the tolerance is not above 0 and finite, or the step not from 0 to 1.
+  /// Throws UsageError when the tolerance is not above 0 and finite, or the step not
+  /// 0 or more and finite.
   NloptSolver(const std::string& name, double tolerance, double initial_step);
 
   std::string name() const override { return name_; }

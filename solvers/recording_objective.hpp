@@ -26,6 +26,9 @@ class RecordingObjective final : public Objective {
   void values(std::span<const Point> points, std::span<double> values) const override;
   double tie_cost(const Point& x) const override { return objective_.tie_cost(x); }
   double period(Eigen::Index coordinate) const override { return objective_.period(coordinate); }
+  double length_scale(Eigen::Index coordinate) const override {
+    return objective_.length_scale(coordinate);
+  }
   bool has_gradient() const override { return objective_.has_gradient(); }
   double value_and_gradient(const Point& x, Point& gradient) const override;
   bool has_residuals() const override { return objective_.has_residuals(); }

@@ -21,6 +21,9 @@ class ShiftedPeriod final : public Objective {
   void values(std::span<const Point> points, std::span<double> values) const override;
   double tie_cost(const Point& x) const override { return objective_.tie_cost(wrapped(x)); }
   double period(Eigen::Index coordinate) const override { return objective_.period(coordinate); }
+  double length_scale(Eigen::Index coordinate) const override {
+    return objective_.length_scale(coordinate);
+  }
   bool has_gradient() const override { return objective_.has_gradient(); }
   double value_and_gradient(const Point& x, Point& gradient) const override {
     return objective_.value_and_gradient(wrapped(x), gradient);

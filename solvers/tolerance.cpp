@@ -10,7 +10,7 @@ namespace nbvopt {
 double checked_tolerance(double tolerance) {
   if (std::isfinite(tolerance) && tolerance > 0.0) return tolerance;
   std::ostringstream text;
-  text << "tolerance = " << tolerance << ": give a finite share of the box's width above 0";
+  text << "tolerance = " << tolerance << ": give a finite number of length scales above 0";
   throw UsageError(text.str());
 }
 

@@ -24,6 +24,15 @@ Point UnitBox::from_unit(const Point& u) const {
   return box_.clamp(x);
 }
 
+Point UnitBox::unit_scale(const Objective& objective) const {
+  Point scale(dimension());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    scale[i] = std::min(1.0, objective.length_scale(free_[k]) / width_[i]);
+  }
+  return scale;
+}
+
 Point UnitBox::unit_gradient(const Point& gradient) const {
   return gradient(free_).cwiseProduct(width_);
 }

@@ -18,6 +18,9 @@ class UnitBox {
 
   const Point& unit_start() const { return unit_start_; }
 
+  /// Objective::length_scale() in units, at most the whole box.
+  Point unit_scale(const Objective& objective) const;
+
   /// Values outside [0, 1] are clamped.
   Point from_unit(const Point& u) const;
 

@@ -117,9 +117,8 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   result.box = search_box(request);
 
   const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
-  const std::unique_ptr<const Objective> surrogate =
-      make_surrogates(grid_, sensor_, mast, result.box, trace.get());
-  const ViewObjective objective(mast, result.box, *evaluator_, surrogate.get(), trace.get());
+  const PanoramaObjective surrogate(grid_, sensor_, mast, result.box, trace.get());
+  const ViewObjective objective(mast, sensor_, result.box, *evaluator_, &surrogate, trace.get());
   const SolveResult solved =
       solver.solve(objective, {request.joints.vector(), request.stop, request.seed});
   result.current = objective.view(request.joints.vector());

@@ -1,14 +1,11 @@
 #include "planner/view_objective.hpp"
 
-#include "planner/joint_period.hpp"
-
 namespace nbvopt {
 
-ViewObjective::ViewObjective(const MovingMast& mast, const JointBox& box,
-                             const ViewEvaluator& evaluator, const Objective* surrogate,
-                             SearchTrace* trace)
-    : mast_(mast),
-      box_{box.min, box.max},
+ViewObjective::ViewObjective(const MovingMast& mast, const SensorOptions& sensor,
+                             const JointBox& box, const ViewEvaluator& evaluator,
+                             const Objective* surrogate, SearchTrace* trace)
+    : JointObjective(mast, sensor, box),
       evaluator_(evaluator),
       surrogate_(surrogate),
       trace_(trace) {}
@@ -24,14 +21,6 @@ void ViewObjective::values(std::span<const Point> points, std::span<double> valu
     note(points[i], views[i]);
     values[i] = views[i].gain;
   }
-}
-
-double ViewObjective::tie_cost(const Point& x) const {
-  return mast_.arrival_time_s(JointPosition::from(x));
-}
-
-double ViewObjective::period(Eigen::Index coordinate) const {
-  return joint_period(mast_.mast(), box_, coordinate);
 }
 
 ViewGain ViewObjective::view(const Point& x) const {
@@ -51,14 +40,14 @@ ViewGain ViewObjective::evaluate(const Point& x) const {
 }
 
 Transform ViewObjective::pose(const Point& x) const {
-  return mast_.T_map_sensor(JointPosition::from(x));
+  return mast().T_map_sensor(JointPosition::from(x));
 }
 
 void ViewObjective::note(const Point& x, const ViewGain& view) const {
   ++evaluations_;
   if (trace_ != nullptr) trace_->record(EvaluationKind::exact, JointPosition::from(x), view.gain);
   const std::scoped_lock lock(mutex_);
-  if (x == mast_.joints().vector()) start_ = {x, view};
+  if (x == mast().joints().vector()) start_ = {x, view};
   const bool is_better = !best_ || view.gain > best_->view.gain ||
                          (view.gain == best_->view.gain && tie_cost(x) < tie_cost(best_->point));
   if (is_better) best_ = {x, view};

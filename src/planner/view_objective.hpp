@@ -6,27 +6,23 @@
 #include <optional>
 
 #include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/mast/moving_mast.hpp"
-#include "nbvopt/solver/objective.hpp"
+#include "planner/joint_objective.hpp"
 #include "planner/search_trace.hpp"
 
 namespace nbvopt {
 
 /// gain(pan, tilt, height) once the joints have arrived. Counts its evaluations and remembers the
 /// last views, so that the answer's view is not evaluated twice. Thread-safe.
-class ViewObjective final : public Objective {
+class ViewObjective final : public JointObjective {
  public:
   /// All references must outlive the objective. `surrogate` may be null: there is none; `trace` may
   /// be null: nothing is recorded.
-  ViewObjective(const MovingMast& mast, const JointBox& box, const ViewEvaluator& evaluator,
-                const Objective* surrogate = nullptr, SearchTrace* trace = nullptr);
+  ViewObjective(const MovingMast& mast, const SensorOptions& sensor, const JointBox& box,
+                const ViewEvaluator& evaluator, const Objective* surrogate, SearchTrace* trace);
 
-  const Box& box() const override { return box_; }
   double value(const Point& x) const override;
   /// On all cores; recorded in the order of the points.
   void values(std::span<const Point> points, std::span<double> values) const override;
-  double tie_cost(const Point& x) const override;
-  double period(Eigen::Index coordinate) const override;
   const Objective* surrogate() const override { return surrogate_; }
 
   /// The view at a point, evaluated unless it is remembered.
@@ -45,8 +41,6 @@ class ViewObjective final : public Objective {
   /// Counts, records and remembers an evaluation.
   void note(const Point& x, const ViewGain& view) const;
 
-  const MovingMast& mast_;
-  Box box_;
   const ViewEvaluator& evaluator_;
   const Objective* surrogate_;
   SearchTrace* trace_;

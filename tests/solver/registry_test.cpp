@@ -49,9 +49,10 @@ TEST(Registry, RefusesABadTolerance) {
   }
 }
 
-TEST(Registry, RefusesAFirstStepThatIsNoShareOfTheBox) {
+TEST(Registry, RefusesAFirstStepThatIsNoLength) {
   SolverOptions options;
-  for (const double step : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double step :
+       {-0.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     options.initial_step = step;
     EXPECT_THAT(refusal("nlopt:sbplx", options), HasSubstr("initial_step = "));
   }

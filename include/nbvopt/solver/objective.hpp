@@ -44,6 +44,12 @@ class Objective {
   /// exactly one period wide. 0 for any other.
   virtual double period(Eigen::Index /*coordinate*/) const { return 0.0; }
 
+  /// The length over which values change in their details: steps and tolerances of local searches
+  /// count in it. A fiftieth of the box where nothing better is known.
+  virtual double length_scale(Eigen::Index coordinate) const {
+    return (box().upper[coordinate] - box().lower[coordinate]) / 50.0;
+  }
+
   /// A cheaper objective over the same box with nearly the same values, smooth if need be, or null.
   /// It may have one of its own, cheaper still.
   virtual const Objective* surrogate() const { return nullptr; }

@@ -14,10 +14,10 @@ struct SolverOptions {
   /// Of `grid`: the step of each coordinate; 0 freezes it at the start.
   std::vector<double> grid_steps;
   /// Of `nlopt:*` and `ceres:*`: the search has converged when a step changes every coordinate by
-  /// less than this share of the box's width.
-  double tolerance = 1e-4;
-  /// Of `nlopt:sbplx`, `nlopt:bobyqa` and `nlopt:cobyla`, which alone heed it: the first step, a
-  /// share of the box's width; 0 leaves it to the solver.
+  /// less than this many of the objective's length scales.
+  double tolerance = 5e-3;
+  /// Of `nlopt:sbplx`, `nlopt:bobyqa` and `nlopt:cobyla`, which alone heed it: the first step, in
+  /// length scales; 0 leaves it to the solver.
   double initial_step = 0.0;
 };
 

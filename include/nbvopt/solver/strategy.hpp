@@ -14,7 +14,7 @@ namespace nbvopt {
 struct StrategyOptions {
   std::string global = "nlopt:direct-l";  ///< on the cheapest surrogate
   std::string local = "nlopt:lbfgs";      ///< on the objective's surrogate
-  std::string polish = "nlopt:sbplx";     ///< on the objective
+  std::string polish = "nlopt:cobyla";    ///< on the objective
 
   /// Points sampled inside each edge of the box that runs along coordinate 0, beside the corners
   /// and the centres of edges, faces and box.
@@ -24,13 +24,13 @@ struct StrategyOptions {
   int local_starts = 6;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
   double start_separation = 0.1;
-  double local_tolerance = 1e-4;        ///< as SolverOptions::tolerance
-  std::int64_t local_evaluations = 40;  ///< of each start
+  double local_tolerance = 0.05;        ///< as SolverOptions::tolerance
+  std::int64_t local_evaluations = 20;  ///< of each start
 
   /// Local optima that the objective judges; the polish starts from the best.
   int polish_candidates = 3;
-  double polish_tolerance = 1e-3;  ///< as SolverOptions::tolerance
-  double polish_step = 0.02;       ///< as SolverOptions::initial_step
+  double polish_tolerance = 0.02;  ///< as SolverOptions::tolerance
+  double polish_step = 1.0;        ///< as SolverOptions::initial_step
   std::int64_t polish_evaluations = 60;
 };
 
