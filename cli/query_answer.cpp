@@ -50,9 +50,11 @@ std::string gain_line(const PlanResult& result) {
 }
 
 std::string evaluation_count(const PlanResult& result) {
-  const std::string exact = std::to_string(result.evaluations) + " evaluations";
-  if (result.surrogate_evaluations == 0) return exact;
-  return exact + " and " + std::to_string(result.surrogate_evaluations) + " of the surrogate";
+  std::string text = std::to_string(result.evaluations) + " evaluations";
+  if (result.surrogate_evaluations > 0) {
+    text += " and " + std::to_string(result.surrogate_evaluations) + " of the surrogate";
+  }
+  return text;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // How a query searches, and on what base.
 #include "cli/query_command.hpp"
+#include "nbvopt/solver/strategy.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -19,10 +20,14 @@ TEST_F(CommandLine, QueryComposesASearchFromItsStages) {
   const auto solver_of = [&](const Arguments& stages) {
     return nbvopt_json(json_query(map_file, stages))["solver"].get<std::string>();
   };
-  EXPECT_EQ(solver_of({"--global", "nlopt:crs2"}), "nlopt:crs2 + nlopt:lbfgs + nlopt:sbplx");
-  EXPECT_EQ(solver_of({"--local", "nlopt:slsqp"}), "nlopt:direct-l + nlopt:slsqp + nlopt:sbplx");
-  EXPECT_EQ(solver_of({"--polish", "nlopt:bobyqa"}), "nlopt:direct-l + nlopt:lbfgs + nlopt:bobyqa");
-  EXPECT_EQ(solver_of({"--global", "none", "--polish", "none"}), "nlopt:lbfgs");
+  const StrategyOptions stages;  // those that are not given are the strategy's own
+  EXPECT_EQ(solver_of({"--global", "nlopt:crs2"}),
+            "nlopt:crs2 + " + stages.local + " + " + stages.polish);
+  EXPECT_EQ(solver_of({"--local", "nlopt:slsqp"}),
+            stages.global + " + nlopt:slsqp + " + stages.polish);
+  EXPECT_EQ(solver_of({"--polish", "nlopt:bobyqa"}),
+            stages.global + " + " + stages.local + " + nlopt:bobyqa");
+  EXPECT_EQ(solver_of({"--global", "none", "--polish", "none"}), stages.local);
 }
 
 TEST_F(CommandLine, QueryLeavesTheSurrogateOutWhereOnlyThePolishRuns) {

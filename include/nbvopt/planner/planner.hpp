@@ -88,7 +88,7 @@ class Planner {
   /// Answers with the given solver. Throws InputError when the request is not usable: a pose, twist
   /// or joint that is not finite, a joint beyond its limits, a negative motion time, a base that
   /// drives far away.
-  PlanResult plan(const PlanRequest& request, const Solver& solver) const;
+  PlanResult plan(const PlanRequest& asked, const Solver& solver) const;
 
   /// The box of Algorithm 2 around the request's joints, which are within their limits, its height
   /// cut at the first occupied voxel that the optical centre would meet on its way up or down, the
