@@ -18,10 +18,10 @@ constexpr float kNothingHit = -10.0F;  // a radius that lies in no view
 constexpr double kGrazing = 0.05;
 constexpr std::size_t kPatchesATask = 64;
 
-/// Where something is that the sensor can gain from, at a distance that views from up to
-/// `moved_m` away may see: only where its u_old may exceed u_new.
+/// Whether a view from near the layer may gain from a hit: where u_old may exceed u_new.
 bool may_gain(const LayerCaster& caster, double u_old, double distance_m) {
-  constexpr double kRounding = 0.01;  // of relu and |x|
+  if (u_old >= 1.0) return true;
+  constexpr double kRounding = 0.01;  // of the rounded-off corners in the sum
   const double d_focal =
       std::max(0.0, std::abs(distance_m - caster.focal_distance_m) - caster.layer_spacing_m);
   const double u_distance = 1.0 - 2.0 / (1.0 + std::exp(d_focal));  // Equation (2)
