@@ -16,7 +16,7 @@ std::vector<json> lines_of(const std::string& file) {
 
 TEST_F(CommandLine, QueryWritesEveryEvaluation) {
   const std::string file = folder / "trace.jsonl";
-  const json answer = nbvopt_json(json_query(map_file, {"--trace", file}));
+  const json answer = nbvopt_json(json_query(map_file, {"--solver", "grid", "--trace", file}));
   const std::vector<json> trace = lines_of(file);
   ASSERT_EQ(trace.size(), answer["evaluations"].get<std::size_t>());
   double best = 0.0;

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST_F(CommandLine, QueryPrintsOneObjectWithTheDocumentedKeys) {
-  const ProcessResult result = nbvopt_run(json_query(map_file));
+  const ProcessResult result = nbvopt_run(json_query(map_file, {"--solver", "grid"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const json answer = json::parse(result.out);
@@ -37,7 +37,7 @@ TEST_F(CommandLine, QueryPrintsOneObjectWithTheDocumentedKeys) {
 
 TEST_F(CommandLine, QueryIsAlgorithmOneOverPan) {
   // Velocity pi rad/s for 0.5 s: pan from -pi/2 to pi/2 in steps of 0.8, and where it stands.
-  const json answer = nbvopt_json(json_query(map_file));
+  const json answer = nbvopt_json(json_query(map_file, {"--solver", "grid"}));
   EXPECT_EQ(answer["evaluations"], 5);
   EXPECT_GT(answer["gain"], answer["current_gain"]);
   EXPECT_EQ(answer["tilt"], 0.0);
@@ -179,7 +179,8 @@ TEST_F(CommandLine, QuerySaysWhenNothingIsToBeHad) {
 }
 
 TEST_F(CommandLine, QueryStopsAtItsLimits) {
-  const json evaluations = nbvopt_json(json_query(map_file, {"--max-evals", "2"}));
+  const json evaluations =
+      nbvopt_json(json_query(map_file, {"--solver", "grid", "--max-evals", "2"}));
   EXPECT_EQ(evaluations["status"], "evaluation_limit");
   EXPECT_EQ(evaluations["evaluations"], 2);
   const json time = nbvopt_json(json_query(map_file, {"--time-limit-ms", "1e-6"}));
