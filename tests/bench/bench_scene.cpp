@@ -1,5 +1,6 @@
 #include "bench/bench_scene.hpp"
 
+#include <iostream>
 #include <numbers>
 #include <random>
 
@@ -10,23 +11,27 @@
 namespace nbvopt::bench {
 namespace {
 
-BenchScene make_aslam_lab() {
-  const nlohmann::json views = test::read_oracle("ASLAM_lab.json");
-  const nlohmann::json queries = test::read_oracle("ASLAM_lab_optima.json");
-  const std::filesystem::path file = test::shared_dir() / "maps" / "ASLAM_lab.bt";
-  BenchScene scene{.name = "ASLAM_lab",
+/// A map of ../shared with the views and the queries of its known answers.
+BenchScene make_known_scene(const std::string& name) {
+  const nlohmann::json views = test::read_oracle(name + ".json");
+  const nlohmann::json queries = test::read_oracle(name + "_optima.json");
+  const std::filesystem::path file =
+      test::shared_dir() / "maps" / queries.at("map").get<std::string>();
+  BenchScene scene{.name = name,
                    .map_file = file,
                    .map = read_map(file),
                    .paper_code_sensor = test::oracle_sensor(views),
                    .poses_T_map_sensor = test::oracle_poses(views),
                    .robot = {.sensor = test::oracle_sensor(queries), .mast = {}},
-                   .requests = {}};
+                   .requests = {},
+                   .best_gains = {}};
   for (const nlohmann::json& known : queries.at("cases")) {
     PlanRequest request;
     request.T_map_base = test::oracle_base(known);
     request.joints = test::oracle_joints(known);
     request.motion_time_s = known.at("time_budget_s");
     scene.requests.push_back(request);
+    scene.best_gains.push_back(known.at("best_gain"));
   }
   return scene;
 }
@@ -66,7 +71,8 @@ BenchScene make_office_partial() {
                    .paper_code_sensor = paper_code_sensor(SensorOptions{}),
                    .poses_T_map_sensor = {},
                    .robot = {},
-                   .requests = {}};
+                   .requests = {},
+                   .best_gains = {}};
   const Mast mast(scene.robot.mast);
   std::mt19937_64 random(1);
   for (std::size_t i = 0; i < kViews; ++i) {
@@ -79,10 +85,16 @@ BenchScene make_office_partial() {
 
 }  // namespace
 
-std::vector<std::shared_ptr<const BenchScene>> make_bench_scenes() {
+std::vector<std::shared_ptr<const BenchScene>> make_bench_scenes(
+    const std::vector<std::string>& known_names) {
   std::vector<std::shared_ptr<const BenchScene>> scenes;
   if (std::filesystem::exists(test::shared_dir() / "oracle")) {
-    scenes.push_back(std::make_shared<BenchScene>(make_aslam_lab()));
+    for (const std::string& name : known_names) {
+      scenes.push_back(std::make_shared<BenchScene>(make_known_scene(name)));
+    }
+  } else {
+    std::cerr << "The maps and known answers of ../shared are not here: only the map that ships is "
+                 "measured.\n";
   }
   scenes.push_back(std::make_shared<BenchScene>(make_office_partial()));
   return scenes;

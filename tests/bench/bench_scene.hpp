@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
@@ -19,10 +20,13 @@ struct BenchScene {
   std::vector<Transform> poses_T_map_sensor;
   Robot robot;  ///< of the queries
   std::vector<PlanRequest> requests;
+  std::vector<double> best_gains;  ///< of the requests, where another program found them; or empty
 };
 
-/// ASLAM_lab.bt with the views and queries of its known answers, where they lie beside the
-/// project; then the map that ships, with views and queries drawn in its free space by a seed.
-std::vector<std::shared_ptr<const BenchScene>> make_bench_scenes();
+/// The maps of these names with the views and queries of their known answers, where they lie beside
+/// the project (a line on standard error says so if not); then the map that ships, with views and
+/// queries drawn in its free space by a seed.
+std::vector<std::shared_ptr<const BenchScene>> make_bench_scenes(
+    const std::vector<std::string>& known_names);
 
 }  // namespace nbvopt::bench

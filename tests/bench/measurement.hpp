@@ -1,10 +1,12 @@
 // One thing that is measured: a number of items, such as views, each timed on its own.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,12 @@ struct Measurement {
 
   /// The shortest time of each item so far: on a busy machine the one nearest to the truth.
   std::vector<double> best_s = std::vector<double>(items, std::numeric_limits<double>::infinity());
+
+  bool has_run() const { return best_s.front() < std::numeric_limits<double>::infinity(); }
+  double mean_s() const {
+    return std::accumulate(best_s.begin(), best_s.end(), 0.0) / static_cast<double>(items);
+  }
+  double slowest_s() const { return *std::max_element(best_s.begin(), best_s.end()); }
 };
 
 /// What a call takes, seconds.
