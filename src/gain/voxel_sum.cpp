@@ -21,36 +21,41 @@ PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
   thread_local HitTerms terms;
   thread_local std::vector<VoxelTally> tallies;
   kernel.terms(model, view, layer.blocks(), ids, terms);
-  tallies.assign(layer.voxel_count(), {});
+  tallies.clear();
 
   const auto for_each_hit = [&](const auto& visit) {
     std::size_t hit = 0;
     for (const std::uint32_t id : ids) {
-      for (const std::uint32_t voxel : layer.voxels(id)) {
-        if (terms.rays[hit] > 0.0) visit(hit, tallies[voxel]);
-        ++hit;
-      }
+      for (const std::uint32_t voxel : layer.voxels(id)) visit(hit++, voxel);
     }
   };
-  for_each_hit([&](std::size_t hit, VoxelTally& tally) {
+  for_each_hit([&](std::size_t hit, std::uint32_t voxel) {
+    if (terms.rays[hit] <= 0.0) return;
+    if (voxel >= tallies.size()) tallies.resize(voxel + 1);
+    VoxelTally& tally = tallies[voxel];
     tally.rays += terms.rays[hit];
     if (terms.gain[hit] <= tally.best_gain) return;
     tally.best_gain = terms.gain[hit];
     tally.best_hit = hit;
   });
 
+  // In the order of the hits, whatever the voxels' numbers are. From here on, the terms hold the
+  // derivatives by themselves.
   PanoramaSum sum;
-  if (with_motion) {
-    // From here on, the terms hold the derivatives by themselves.
-    for_each_hit([&](std::size_t hit, const VoxelTally& tally) {
-      terms.rays[hit] = tally.rays < 1.0 ? tally.best_gain : 0.0;
-      terms.gain[hit] = hit == tally.best_hit ? std::min(1.0, tally.rays) : 0.0;
-    });
-    sum = kernel.motion(model, view, layer.blocks(), ids, terms);
-  }
-  for (const VoxelTally& tally : tallies) {
-    sum.gain += std::min(1.0, tally.rays) * tally.best_gain;  // Equation (13), over voxels
-  }
+  double gain = 0.0;
+  for_each_hit([&](std::size_t hit, std::uint32_t voxel) {
+    if (terms.rays[hit] <= 0.0) {
+      terms.gain[hit] = 0.0;
+      return;
+    }
+    const VoxelTally& tally = tallies[voxel];
+    const bool is_best = tally.best_gain > 0.0 && hit == tally.best_hit;
+    if (is_best) gain += std::min(1.0, tally.rays) * tally.best_gain;  // Equation (13)
+    terms.rays[hit] = tally.rays < 1.0 ? tally.best_gain : 0.0;
+    terms.gain[hit] = is_best ? std::min(1.0, tally.rays) : 0.0;
+  });
+  if (with_motion) sum = kernel.motion(model, view, layer.blocks(), ids, terms);
+  sum.gain = gain;
   return sum;
 }
 
