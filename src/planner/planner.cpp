@@ -163,15 +163,16 @@ VoxelState Planner::state_at_camera(const MovingMast& mast, const JointPosition&
 
 void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
                           std::vector<std::string>& warnings) const {
-  if (!grid_->has_occupied()) warnings.push_back("the map has no occupied voxel");
+  if (!grid_->has_occupied()) warnings.emplace_back("the map has no occupied voxel");
   if (!grid_->any_known(reachable)) {
-    warnings.push_back("nothing in reach of the camera is mapped: the base is outside the map");
+    warnings.emplace_back("nothing in reach of the camera is mapped: the base is outside the map");
   } else if (at_camera == VoxelState::unknown) {
-    warnings.push_back("the camera stands in unmapped space: is the base where you think it is?");
+    warnings.emplace_back(
+        "the camera stands in unmapped space: is the base where you think it is?");
   }
   if (grid_->has_occupied() && !grid_->carries_uncertainty()) {
-    warnings.push_back("the map carries no uncertainty: every occupied voxel counts with u = " +
-                       format_number(sensor_.occupied_uncertainty));
+    warnings.emplace_back("the map carries no uncertainty: every occupied voxel counts with u = " +
+                          format_number(sensor_.occupied_uncertainty));
   }
 }
 
@@ -230,12 +231,12 @@ KeyBox Planner::reachable_voxels(const PlanRequest& request) const {
                              : 1.0;
   // The drive in pieces: no point of a piece is farther from its middle than half its length.
   constexpr double kPiece_m = 0.5;
-  const double pieces = std::max(1.0, std::ceil(drive_m / kPiece_m));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(drive_m / kPiece_m)));
   const double radius_m = lever_m + stretch * sensor_.range_max_m +
                           grid_->lattice().resolution_m() + 0.5 * drive_m / pieces;
   Eigen::AlignedBox3d mast_tops;
-  for (double piece = 0.5; piece < pieces; ++piece) {
-    const Transform T_map_base = mast.T_map_base(longest_s * piece / pieces);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Transform T_map_base = mast.T_map_base(longest_s * (piece + 0.5) / pieces);
     for (const double height_m : {box.min[2], box.max[2]}) {
       mast_tops.extend(T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
     }

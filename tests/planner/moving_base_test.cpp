@@ -67,9 +67,10 @@ TEST(MovingBase, IsNeverWorseThanStaying) {
     PlanRequest request = driving_request(
         {uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -2.0, 2.0)},
         uniform(random, 0.05, 2.0));
-    request.stop.max_evaluations = 20;
-    const PlanResult result = world.planner().plan(request, *make_solver("random", {}));
-    expect_contract(world, request, result);
+    request.stop.max_evaluations = 100;
+    for (const char* solver : {"random", "auto"}) {
+      expect_contract(world, request, world.planner().plan(request, *make_solver(solver, {})));
+    }
   }
 }
 
