@@ -3,12 +3,11 @@
 namespace nbvopt {
 namespace {
 
-/// Half as dense as the sensor's rays, and layers two voxels apart: what finer panoramas find is
-/// not better once it was polished on the exact gain. A voxel's rays must be counted at the
-/// sensor's own spacing.
+/// Half as dense as the sensor's rays, and few layers: what finer panoramas find is not better once
+/// it was polished on the exact gain. A voxel's rays must be counted at the sensor's own spacing.
 PanoramaOptions options_for(Counting counting) {
   if (counting == Counting::per_voxel) return {};
-  return {.ray_spacing = 2.0, .layer_spacing = 2.0};
+  return {.ray_spacing = 2.0, .layer_spacing = 6.0};
 }
 
 /// Keeps the roots of the residuals smooth: a share of a patch's bound.

@@ -18,8 +18,8 @@ struct StrategyOptions {
 
   /// Points sampled inside each edge of the box that runs along coordinate 0, beside the corners
   /// and the centres of edges, faces and box.
-  int edge_points = 12;
-  std::int64_t global_evaluations = 100;
+  int edge_points = 10;
+  std::int64_t global_evaluations = 80;
 
   int local_starts = 6;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
