@@ -69,7 +69,8 @@ PanoramaDirections::PanoramaDirections(const DirectionRange& range, double spaci
   const auto patches = static_cast<std::size_t>(rows / kPatchSide) *
                        static_cast<std::size_t>(ray_count(width_rad, spacing_h_rad) / kPatchSide);
   reserve(patches * HitBlock::kSize, x, y, z, solid_angle);
-  reserve(patches, axis_x, axis_y, axis_z, radius, lever_x, lever_y, lever_z);
+  reserve(patches, axis_x, axis_y, axis_z, radius, lever_x, lever_y, lever_z, apex_beside,
+          apex_above);
 
   for (int low = 0; low < rows; low += kPatchSide) {
     const double flattest =
@@ -88,6 +89,9 @@ PanoramaDirections::PanoramaDirections(const DirectionRange& range, double spaci
     const double tilt_rad = std::clamp(middle_rad, box.min[1], box.max[1]);
     const Eigen::Vector3d lever =
         Eigen::AngleAxisd(-tilt_rad, Eigen::Vector3d::UnitY()) * sensor_offset_m;
+    // The origins go round the mast's axis, and up and down while the tilt follows.
+    const double beside_m = lever.x() / std::cos(middle_rad);
+    const double above_m = tilt_rad == middle_rad ? sensor_offset_m.x() : 0.0;
     // The farthest ray of a patch is a corner's.
     const double corner_rad = (0.5 * kPatchSide - 0.5) * column_rad;
     const double farthest =
@@ -123,6 +127,8 @@ PanoramaDirections::PanoramaDirections(const DirectionRange& range, double spaci
       lever_x.push_back(lever_map.x());
       lever_y.push_back(lever_map.y());
       lever_z.push_back(lever_map.z());
+      apex_beside.push_back(static_cast<float>(beside_m));
+      apex_above.push_back(static_cast<float>(above_m));
     }
   }
 }

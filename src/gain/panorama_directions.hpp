@@ -39,6 +39,9 @@ struct PanoramaDirections {
   std::vector<float> axis_x, axis_y, axis_z;     ///< the middle of its directions
   std::vector<float> radius;                     ///< how far, at most, a direction is from the axis
   std::vector<float> lever_x, lever_y, lever_z;  ///< from the mast's top to the optical centre
+  /// How far behind their origin its rays would meet those of the patches beside, and above: a ray
+  /// stands for w (d + apex_beside) (d + apex_above) across itself. 0 without a lever arm.
+  std::vector<float> apex_beside, apex_above;
 };
 
 }  // namespace nbvopt::detail

@@ -127,8 +127,9 @@ void PanoramaLayer::fill(std::uint32_t id, const RayHits& hits, std::size_t firs
     Eigen::Vector3d area = Eigen::Vector3d::Zero();
     if (hits.kind[k] >= HitKind::unknown && may_gain(caster_, hits.uncertainty[k], distance_m)) {
       nearest_m = std::min(nearest_m, distance_m);
-      const double seen =
-          directions.solid_angle[id * HitBlock::kSize + i] * distance_m * distance_m;
+      const double seen = directions.solid_angle[id * HitBlock::kSize + i] *
+                          std::max(0.0, distance_m + directions.apex_beside[id]) *
+                          std::max(0.0, distance_m + directions.apex_above[id]);
       const int axis = (static_cast<int>(hits.face[k]) - 1) / 2;
       if (hits.face[k] == Face::inside || std::abs(direction[axis]) < kGrazing) {
         area = seen * direction;
