@@ -6,7 +6,8 @@ NBVOPT := $(BUILD)/cli/nbvopt
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
-.PHONY: help packages packages-ci build demo test bench sanitize fuzz format check-format tidy clean
+.PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search notebook \
+        sanitize fuzz format check-format tidy clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
@@ -16,6 +17,9 @@ packages:
 
 packages-ci:
 	@cmake/install_packages.sh packages.txt packages-ci.txt
+
+packages-notebooks:
+	@cmake/install_packages.sh packages-notebooks.txt
 
 build: packages  ## configure and build everything
 	@cmake --preset $(PRESET) --log-level=WARNING
@@ -33,6 +37,14 @@ test: build  ## run all tests
 
 bench: build  ## measure; compare two runs with Google Benchmark's tools/compare.py
 	@$(BUILD)/tests/bench/nbvopt_bench $(BENCH_ARGS)
+
+bench-search: build  ## compare searches; every query's answer lands in out/search_quality.jsonl
+	@mkdir -p out
+	@$(BUILD)/tests/bench/nbvopt_bench_search --json out/search_quality.jsonl $(BENCH_ARGS)
+
+notebook: packages-notebooks  ## draw docs/images/search_quality.png from what bench-search wrote
+	@test -f out/search_quality.jsonl || { echo "out/search_quality.jsonl is missing: run make bench-search first" >&2; exit 1; }
+	@jupyter-nbconvert --log-level=WARN --to notebook --execute --output-dir out notebooks/search_quality.ipynb
 
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
