@@ -2,6 +2,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +73,11 @@ void PanoramaLayer::cast(std::span<const std::uint32_t> ids) {
     return;
   }
   const std::size_t tasks = (all.size() + kPatchesATask - 1) / kPatchesATask;
-  tbb::parallel_for(std::size_t{0}, tasks,
-                    [&](std::size_t task) { cast_from(task * kPatchesATask, kPatchesATask); });
+  // A caller that waits for these tasks holds a lock: it must not take up others that ask for it.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, tasks,
+                      [&](std::size_t task) { cast_from(task * kPatchesATask, kPatchesATask); });
+  });
 }
 
 void PanoramaLayer::cast_run(std::span<const std::uint32_t> ids, Storage& storage) {
