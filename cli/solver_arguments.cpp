@@ -12,7 +12,7 @@
 namespace nbvopt {
 namespace {
 
-constexpr const char* kDefaultSolver = "grid";
+constexpr const char* kDefaultSolver = "auto";
 constexpr const char* kNoStage = "none";
 
 void check_step(const std::string& option, double step, const std::string& unit) {

@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST_F(CommandLine, QueryHasADefaultSolver) {
-  EXPECT_EQ(nbvopt_json(json_query(map_file))["solver"], "grid");
+  EXPECT_EQ(nbvopt_json(json_query(map_file))["solver"], "auto");
 }
 
 TEST_F(CommandLine, QueryRunsTheStrategyByName) {
