@@ -24,8 +24,8 @@ struct StrategyOptions {
   int local_starts = 6;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
   double start_separation = 0.1;
-  double local_tolerance = 0.05;        ///< as SolverOptions::tolerance
-  std::int64_t local_evaluations = 20;  ///< of each start
+  double local_tolerance = 0.1;         ///< as SolverOptions::tolerance
+  std::int64_t local_evaluations = 60;  ///< of each start
 
   /// Local optima that the objective judges; the polish starts from the best.
   int polish_candidates = 3;
