@@ -50,7 +50,6 @@ class PanoramaLayer {
   std::span<const std::uint32_t, HitBlock::kSize> voxels(std::uint32_t id) const {
     return voxel_[id];
   }
-  std::size_t voxel_count() const { return voxel_numbers_.size(); }
 
  private:
   struct Storage;

@@ -8,6 +8,7 @@ namespace {
 
 /// What is known of a voxel while its hits go by.
 struct VoxelTally {
+  std::uint64_t sum_number = 0;  ///< of the sum that the rest belongs to
   double rays = 0.0;
   double best_gain = 0.0;
   std::size_t best_hit = 0;
@@ -19,9 +20,11 @@ PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
                       const PanoramaView& view, const PanoramaLayer& layer,
                       std::span<const std::uint32_t> ids, bool with_motion) {
   thread_local HitTerms terms;
+  // Kept from sum to sum, since most of a layer's voxels are out of view.
   thread_local std::vector<VoxelTally> tallies;
+  thread_local std::uint64_t sum_number = 0;
+  ++sum_number;
   kernel.terms(model, view, layer.blocks(), ids, terms);
-  tallies.clear();
 
   const auto for_each_hit = [&](const auto& visit) {
     std::size_t hit = 0;
@@ -31,8 +34,9 @@ PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
   };
   for_each_hit([&](std::size_t hit, std::uint32_t voxel) {
     if (terms.rays[hit] <= 0.0) return;
-    if (voxel >= tallies.size()) tallies.resize(voxel + 1);
+    if (voxel >= tallies.size()) tallies.resize(2 * std::size_t{voxel} + 1);
     VoxelTally& tally = tallies[voxel];
+    if (tally.sum_number != sum_number) tally = {.sum_number = sum_number};
     tally.rays += terms.rays[hit];
     if (terms.gain[hit] <= tally.best_gain) return;
     tally.best_gain = terms.gain[hit];

@@ -6,8 +6,9 @@ namespace {
 /// Half as dense as the sensor's rays, and few layers: what finer panoramas find is not better once
 /// it was polished on the exact gain. A voxel's rays must be counted at the sensor's own spacing.
 PanoramaOptions options_for(Counting counting) {
-  if (counting == Counting::per_voxel) return {};
-  return {.ray_spacing = 2.0, .layer_spacing = 6.0};
+  constexpr double kLayerSpacing = 6.0;
+  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,
+          .layer_spacing = kLayerSpacing};
 }
 
 /// Keeps the roots of the residuals smooth: a share of a patch's bound.
