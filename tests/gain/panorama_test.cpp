@@ -95,7 +95,7 @@ class PanoramaOfWall : public ::testing::Test {
 
   void expect_gain_of_wall(double tolerance) const {
     const Panorama panorama = world_.panorama();
-    for (const JointPosition& q : random_places(world_, 20)) {
+    for (const JointPosition& q : random_places(world_, 10)) {
       const double expected = gain_of_wall(q);
       EXPECT_NEAR(panorama.gain(q), expected, tolerance * expected) << q.vector().transpose();
     }
