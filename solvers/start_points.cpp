@@ -1,6 +1,8 @@
 #include "start_points.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -54,6 +56,20 @@ void append_combinations(const std::vector<Levels>& levels, std::vector<Point>& 
   }
 }
 
+/// The same points, in an order of which every beginning is spread over the box: by steps of the
+/// golden section. A search that must end early has then looked everywhere a little.
+std::vector<Point> spread(std::vector<Point> points) {
+  const std::size_t count = points.size();
+  std::size_t step =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::lround((std::numbers::phi - 1.0) *
+                                                                    static_cast<double>(count))));
+  while (std::gcd(step, count) != 1) ++step;
+  std::vector<Point> result;
+  result.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) result.push_back(std::move(points[i * step % count]));
+  return result;
+}
+
 }  // namespace
 
 std::vector<Point> start_points(const Objective& objective, int edge_points) {
@@ -73,7 +89,7 @@ std::vector<Point> start_points(const Objective& objective, int edge_points) {
   std::vector<Point> points;
   append_combinations(lattice, points);
   append_combinations(edges, points);
-  return points;
+  return spread(std::move(points));
 }
 
 }  // namespace nbvopt
