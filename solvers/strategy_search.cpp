@@ -15,6 +15,13 @@ namespace {
 /// Ends of local searches nearer than this share of the box's width are one optimum.
 constexpr double kSameOptimum = 0.01;
 
+/// What each stage may spend of an evaluation limit that is too tight for all; the polish has the
+/// rest.
+constexpr std::int64_t kFewestSamples = 12;
+constexpr double kSampleShare = 1.0 / 3.0;
+constexpr double kGlobalShare = 1.0 / 4.0;
+constexpr double kLocalShare = 1.0 / 4.0;
+
 }  // namespace
 
 const Objective& cheapest_surrogate(const Objective& objective) {
@@ -62,14 +69,15 @@ std::vector<StrategySearch::Candidate> StrategySearch::survey() {
 
 void StrategySearch::sample(RecordingObjective& surrogate) {
   const std::vector<Point> points = start_points(surrogate, options_.edge_points);
-  auto next = points.begin();
+  auto next = points.begin() + 1;  // a search evaluates its start first
   const auto next_candidate = [&]() -> std::optional<Point> {
-    if (next != points.end() && *next == request_.start) ++next;  // evaluated first
     if (next == points.end()) return std::nullopt;
     return *next++;
   };
-  batch_search(surrogate, stage_request(request_.start, request_.stop.max_evaluations),
-               next_candidate, SolveStatus::grid_complete);
+  const std::int64_t limit =
+      std::max(kFewestSamples, ration(static_cast<std::int64_t>(points.size()), kSampleShare));
+  batch_search(surrogate, stage_request(points.front(), limit), next_candidate,
+               SolveStatus::grid_complete);
   note_stage(surrogate.evaluations(), "samples");
 }
 
@@ -78,7 +86,8 @@ void StrategySearch::search_globally(RecordingObjective& surrogate) {
   const auto best = separate_points(surrogate, surrogate.points(), surrogate.values(), 0.0, 1);
   const Point start =
       best.empty() ? request_.start : surrogate.points().col(static_cast<Eigen::Index>(best[0]));
-  stages_.global->solve(surrogate, stage_request(start, options_.global_evaluations));
+  stages_.global->solve(surrogate,
+                        stage_request(start, ration(options_.global_evaluations, kGlobalShare)));
   note_stage(surrogate.evaluations() - before, "of global " + stages_.global->name());
 }
 
@@ -87,11 +96,14 @@ std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<C
   if (stages_.local && !starts.empty()) {
     RecordingObjective& surrogate = surrogates_.front();
     const std::int64_t before = surrogate.evaluations();
+    const std::int64_t limit =
+        ration(options_.local_evaluations * static_cast<std::int64_t>(starts.size()), kLocalShare);
     for (const Candidate& start : starts) {
-      if (must_end()) break;
+      const std::int64_t left = limit - (surrogate.evaluations() - before);
+      if (must_end() || left < 1) break;
       const ShiftedPeriod shifted(surrogate, start.x);
-      const SolveResult end =
-          stages_.local->solve(shifted, stage_request(start.x, options_.local_evaluations));
+      const SolveResult end = stages_.local->solve(
+          shifted, stage_request(start.x, std::min(left, options_.local_evaluations)));
       ends.push_back({shifted.wrapped(end.best), end.value, end.status});
     }
     note_stage(surrogate.evaluations() - before, "of local " + stages_.local->name() + " from " +
@@ -156,6 +168,13 @@ std::int64_t StrategySearch::surrogate_evaluations() const {
   return sum;
 }
 
+std::int64_t StrategySearch::ration(std::int64_t planned, double share) {
+  const double limit = share * static_cast<double>(request_.stop.max_evaluations);
+  if (limit >= static_cast<double>(planned)) return planned;
+  is_rationed_ = true;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(limit));
+}
+
 SolveRequest StrategySearch::stage_request(const Point& start, std::int64_t max_evaluations) const {
   SolveRequest request{start, request_.stop, request_.seed};
   const std::int64_t left = request_.stop.max_evaluations - objective_.evaluations() -
@@ -170,6 +189,7 @@ void StrategySearch::note_stage(std::int64_t evaluations, const std::string& wha
 
 SolveStatus StrategySearch::status() const {
   if (limit_) return *limit_;
+  if (is_rationed_) return SolveStatus::evaluation_limit;
   if (polish_status_ != SolveStatus::converged) return polish_status_;
   if (local_status_ != SolveStatus::converged) return SolveStatus::evaluation_limit;
   return SolveStatus::converged;

@@ -53,6 +53,8 @@ class StrategySearch {
   /// Takes note of why the search must end now, if it must.
   bool must_end();
   std::int64_t surrogate_evaluations() const;
+  /// The evaluations of a stage that plans so many, or its share of a tight limit.
+  std::int64_t ration(std::int64_t planned, double share);
   /// With at most `max_evaluations`, and no more than the search has left.
   SolveRequest stage_request(const Point& start, std::int64_t max_evaluations) const;
   void note_stage(std::int64_t evaluations, const std::string& what);
@@ -66,6 +68,7 @@ class StrategySearch {
   std::deque<RecordingObjective> surrogates_;  ///< the first and, unless the same, the cheapest
   BestSeen best_;
   std::int64_t reserved_evaluations_ = 0;  ///< kept for the best point of the surrogates
+  bool is_rationed_ = false;               ///< a stage had to plan for less
   std::optional<SolveStatus> limit_;       ///< what ended the search early
   SolveStatus local_status_ = SolveStatus::converged;  ///< of the search that led to best_
   SolveStatus polish_status_ = SolveStatus::converged;

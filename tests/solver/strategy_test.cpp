@@ -167,7 +167,7 @@ TEST(Strategy, GlobalOnTheCheapestSurrogateLocalOnTheFirstPolishOnTheObjective) 
   EXPECT_EQ(result.surrogate_evaluations,
             static_cast<std::int64_t>(first.records().size() + cheapest.records().size()));
   EXPECT_THAT(result.message,
-              AllOf(HasSubstr("34 samples"), HasSubstr("of global nlopt:direct-l"),
+              AllOf(HasSubstr("29 samples"), HasSubstr("of global nlopt:direct-l"),
                     HasSubstr("of local nlopt:lbfgs from 6 starts"), HasSubstr("nlopt:cobyla")));
 }
 

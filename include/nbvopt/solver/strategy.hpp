@@ -37,10 +37,11 @@ struct StrategyOptions {
 /// A solver that searches on the objective's surrogates and answers with what the objective itself
 /// evaluated. Without a global and a local stage it needs no surrogate.
 ///
-/// The evaluation limit bounds those of the objective and of its surrogates together; without one
-/// the stages' own limits hold. One evaluation is kept for the surrogate's best point: when a limit
-/// ends the search early, the objective judges that point first. The status is `converged` when the
-/// local search that led to the answer and the polish met their tolerances.
+/// The evaluation limit bounds those of the objective and of its surrogates together; one that is
+/// too tight for all stages is shared out among them. Without one the stages' own limits hold. One
+/// evaluation is kept for the surrogate's best point: when a limit ends the search early, the
+/// objective judges that point first. The status is `converged` when the local search that led to
+/// the answer and the polish met their tolerances.
 ///
 /// Throws UsageError: a name that is not known, a solver that cannot work in its stage, an option
 /// out of range. Solving throws it where an objective lacks what a stage needs.
