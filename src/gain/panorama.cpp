@@ -56,22 +56,10 @@ struct LayerWeight {
   Eigen::Vector3d gradient;
 };
 
-double depth_stretch(const SensorOptions& sensor) {
-  if (sensor.range_axis == RangeAxis::euclidean) return 1.0;
-  const double tan_h = std::tan(sensor.half_fov_horizontal_rad);
-  const double tan_v = std::tan(sensor.half_fov_vertical_rad);
-  return std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v);
-}
-
 /// Layers a voxel apart, or half a voxel where voxels are large.
 double layer_spacing_m(double resolution_m, const PanoramaOptions& options) {
   constexpr double kLargeVoxel_m = 0.1 - 1e-9;
   return options.layer_spacing * resolution_m * (resolution_m >= kLargeVoxel_m ? 0.5 : 1.0);
-}
-
-double slowest_time_s(const MovingMast& mast, const JointBox& box) {
-  return std::max(mast.arrival_time_s(JointPosition::from(box.min)),
-                  mast.arrival_time_s(JointPosition::from(box.max)));
 }
 
 /// The box, its pans those that a turning base sees as well.
@@ -105,28 +93,31 @@ class Panorama::Impl {
         tau_h_rad_(options.smoothing * options.ray_spacing * model_.ray_spacing_h_rad),
         tau_v_rad_(options.smoothing * options.ray_spacing * model_.ray_spacing_v_rad),
         layer_spacing_m_(layer_spacing_m(grid_->lattice().resolution_m(), options)),
-        slowest_time_s_(slowest_time_s(mast, box)),
+        longest_time_s_(mast.longest_arrival_time_s(box)),
         rays_per_patch_(detail::HitBlock::kSize * options.ray_spacing * options.ray_spacing),
         directions_(directions(box, options)),
         heights_(box.min[2], box.max[2], layer_spacing_m_),
-        times_(0.0, slowest_time_s_, time_spacing_s()),
-        caster_{*grid_,
-                directions_,
-                mast_.T_map_base(0.0).linear(),
-                sensor.range_min_m,
-                sensor.range_max_m * depth_stretch(sensor),
-                sensor.near_blocking,
-                sensor.occupied_uncertainty,
-                model_.weight_distance,
-                model_.focal_distance_m,
-                layer_spacing_m_,
-                counting_ == Counting::per_voxel,
-                !mast.mast().options().sensor_offset_m.isZero(0.0)},
+        times_(0.0, longest_time_s_, time_spacing_s()),
+        caster_{.grid = *grid_,
+                .directions = directions_,
+                .R_map_base = mast_.T_map_base(0.0).linear(),
+                .range_min_m = sensor.range_min_m,
+                .range_max_m = sensor.longest_range_m(),
+                .near_blocking = sensor.near_blocking,
+                .occupied_uncertainty = sensor.occupied_uncertainty,
+                .weight_distance = model_.weight_distance,
+                .focal_distance_m = model_.focal_distance_m,
+                .farthest_view_m = farthest_view_m(),
+                .per_voxel = counting_ == Counting::per_voxel,
+                .has_lever = lever_m().squaredNorm() > 0.0},
         layers_(static_cast<std::size_t>(heights_.count) * static_cast<std::size_t>(times_.count)) {
   }
 
   /// The sum at q, with its gradient unless null.
   double gain(const JointPosition& q, double smoothing, Eigen::Vector3d* gradient) {
+    if (!(smoothing > 0.0 && smoothing <= 1.0)) {
+      throw UsageError("panorama: smoothing is a share of the widest, give above 0 and at most 1");
+    }
     const Transform T_map_sensor = mast_.T_map_sensor(q);
     const SensorMotion motion = gradient ? mast_.sensor_motion(q) : SensorMotion{};
     double gain = 0.0;
@@ -182,19 +173,28 @@ class Panorama::Impl {
 
  private:
   detail::PanoramaDirections directions(const JointBox& box, const PanoramaOptions& options) const {
-    const JointBox seen = with_turn(box, mast_.base_twist().wz_rad_s * slowest_time_s_);
+    const JointBox seen = with_turn(box, mast_.base_twist().wz_rad_s * longest_time_s_);
     return {detail::directions_in_reach(seen, model_.half_fov_h_rad + tau_h_rad_,
                                         model_.half_fov_v_rad + tau_v_rad_),
             options.ray_spacing * model_.ray_spacing_h_rad,
             options.ray_spacing * model_.ray_spacing_v_rad,
             box,
-            mast_.mast().options().sensor_offset_m,
+            lever_m(),
             mast_.T_map_base(0.0).linear()};
+  }
+
+  const Eigen::Vector3d& lever_m() const { return mast_.mast().options().sensor_offset_m; }
+
+  /// How far the optical centre may be from where a layer was cast that it uses: a spacing up the
+  /// mast, another along the base's path, and opposite to the lever arm that was cast with.
+  double farthest_view_m() const {
+    return std::hypot(heights_.step, times_.step * mast_.base_twist().speed_m_s()) +
+           2.0 * lever_m().norm();
   }
 
   /// How long the base takes from layer to layer; 0 where it stays.
   double time_spacing_s() const {
-    const double speed_m_s = std::hypot(mast_.base_twist().vx_m_s, mast_.base_twist().vy_m_s);
+    const double speed_m_s = mast_.base_twist().speed_m_s();
     return speed_m_s > 0.0 ? layer_spacing_m_ / speed_m_s : 0.0;
   }
 
@@ -273,12 +273,12 @@ class Panorama::Impl {
   detail::PanoramaKernel kernel_;
   double tau_h_rad_, tau_v_rad_;
   double layer_spacing_m_;
-  double slowest_time_s_;
+  double longest_time_s_;
   double rays_per_patch_;  ///< of the sensor's
   detail::PanoramaDirections directions_;
   Stations heights_, times_;  ///< of the layers, heights running fastest
   detail::LayerCaster caster_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the layers; what was cast of one is read without it
   std::vector<std::unique_ptr<PanoramaLayer>> layers_;
 };
 

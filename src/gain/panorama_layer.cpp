@@ -24,7 +24,7 @@ bool may_gain(const LayerCaster& caster, double u_old, double distance_m) {
   if (u_old >= 1.0) return true;
   constexpr double kRounding = 0.01;  // of the rounded-off corners in the sum
   const double d_focal =
-      std::max(0.0, std::abs(distance_m - caster.focal_distance_m) - caster.layer_spacing_m);
+      std::max(0.0, std::abs(distance_m - caster.focal_distance_m) - caster.farthest_view_m);
   const double u_distance = 1.0 - 2.0 / (1.0 + std::exp(d_focal));  // Equation (2)
   return u_old > caster.weight_distance * u_distance - kRounding;
 }
@@ -58,7 +58,6 @@ void PanoramaLayer::cast(std::span<const std::uint32_t> ids) {
   missing.clear();
   for (const std::uint32_t id : ids) {
     if (is_cast_[id] == 0) missing.push_back(id);
-    is_cast_[id] = 1;
   }
   if (missing.empty()) return;
   const std::span<const std::uint32_t> all(missing);
@@ -116,6 +115,7 @@ void PanoramaLayer::cast_run(std::span<const std::uint32_t> ids, Storage& storag
     for (std::size_t i = 0; i < run; ++i) {
       fill(ids[first + i], storage.hits, i * kRays);
       if (caster_.per_voxel) number_voxels(ids[first + i], storage.hits, i * kRays);
+      is_cast_[ids[first + i]] = 1;
     }
   }
 }

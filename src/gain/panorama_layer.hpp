@@ -24,7 +24,7 @@ struct LayerCaster {
   double occupied_uncertainty;
   double weight_distance;  ///< of u_d in u
   double focal_distance_m;
-  double layer_spacing_m;  ///< how far views may be from the layer
+  double farthest_view_m;  ///< how far views may be from where the layer was cast
   bool per_voxel;
   bool has_lever;
 };
@@ -34,14 +34,13 @@ class PanoramaLayer {
   /// Nothing is cast yet.
   PanoramaLayer(const LayerCaster& caster, const Eigen::Vector3d& centre_map_m);
 
-  const Eigen::Vector3d& centre_map_m() const { return centre_m_; }
-
   /// The patches that may have hits in the view, in their order; the half fields of view include
   /// the smooth edges.
   void patches_in_view(const PanoramaView& view, double half_fov_h_rad, double half_fov_v_rad,
                        std::vector<std::uint32_t>& ids) const;
 
-  /// Casts those of the patches that were not cast yet, on all cores. Not thread-safe.
+  /// Casts those of the patches that were not cast yet, on all cores. Not thread-safe. Throws what
+  /// cast_rays() throws; the patches then count as not cast.
   void cast(std::span<const std::uint32_t> ids);
 
   const HitBlock* blocks() const { return blocks_.get(); }

@@ -1,5 +1,6 @@
 #include "nbvopt/mast/moving_mast.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nbvopt {
@@ -26,6 +27,11 @@ Transform driven(const BaseTwist& twist, double time_s) {
 MovingMast::MovingMast(const Mast& mast, const Transform& T_map_base, const BaseTwist& base_twist,
                        const JointPosition& joints)
     : mast_(mast), T_map_base_(T_map_base), base_twist_(base_twist), joints_(joints) {}
+
+double MovingMast::longest_arrival_time_s(const JointBox& box) const {
+  return std::max(arrival_time_s(JointPosition::from(box.min)),
+                  arrival_time_s(JointPosition::from(box.max)));
+}
 
 Transform MovingMast::T_map_base(double time_s) const {
   if (base_twist_.is_zero()) return T_map_base_;

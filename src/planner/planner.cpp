@@ -46,10 +46,6 @@ PlanStatus plan_status(SolveStatus status) {
   return PlanStatus::not_run;
 }
 
-bool is_complete(PlanStatus status) {
-  return status == PlanStatus::optimal_within_tolerance || status == PlanStatus::grid_complete;
-}
-
 /// The faces of the box that a point lies on, to rounding; a frozen joint has none to speak of.
 std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3d& q) {
   constexpr double kRounding = 1e-9;  // of the box's width
@@ -64,8 +60,26 @@ std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3
   return names;
 }
 
-/// How fast the base's origin moves, m/s.
-double speed_m_s(const BaseTwist& twist) { return std::hypot(twist.vx_m_s, twist.vy_m_s); }
+/// A slip of the unit lies beyond these.
+void check_drive(double drive_m, double turn_rad) {
+  constexpr double kLongestDrive_m = 100.0;
+  constexpr double kLongestTurn_rad = 100.0;
+  const auto check = [](double value, double most, const std::string& verb, const char* unit) {
+    if (value <= most) return;
+    throw InputError("base_twist: the base would " + verb + " " + format_number(std::round(value)) +
+                     unit + " while the joints move, at most " + format_number(most) + unit +
+                     " can be predicted");
+  };
+  check(drive_m, kLongestDrive_m, "drive", " m");
+  check(turn_rad, kLongestTurn_rad, "turn", " rad");
+}
+
+/// Whether the request's own limits ended the search, and not the solver's.
+bool was_cut_short(SolveStatus status, const StopRule& stop) {
+  return status == SolveStatus::time_limit || status == SolveStatus::cancelled ||
+         (status == SolveStatus::evaluation_limit &&
+          stop.max_evaluations != StopRule{}.max_evaluations);
+}
 
 }  // namespace
 
@@ -148,7 +162,7 @@ void Planner::choose(const PlanRequest& request, const MovingMast& mast,
   };
   take(JointPosition::from(solved.best));
   result.status = plan_status(solved.status);
-  if (is_complete(result.status) && result.view.gain < request.min_gain) {
+  if (!was_cut_short(solved.status, request.stop) && result.view.gain < request.min_gain) {
     result.status = PlanStatus::no_gain_in_reach;
     result.message = no_gain_message(state_at_camera(mast, request.joints), result.view);
     take(request.joints);
@@ -188,7 +202,7 @@ JointBox Planner::search_box(const PlanRequest& request) const {
   // Half voxels along the way of the optical centre, as far as it moves through no obstacle. One
   // that starts inside an obstacle may leave it. A moving base lengthens the way.
   const double way_per_height =
-      1.0 + speed_m_s(request.base_twist) / mast_.options().height_velocity_m_s;
+      1.0 + request.base_twist.speed_m_s() / mast_.options().height_velocity_m_s;
   const double step_m = 0.5 * grid_->lattice().resolution_m() / way_per_height;
   const auto reach = [&](double limit_m, double direction) {
     bool inside = column_is_occupied(joints.height_m);
@@ -213,26 +227,14 @@ JointBox Planner::search_box(const PlanRequest& request) const {
 KeyBox Planner::reachable_voxels(const PlanRequest& request) const {
   const MovingMast mast = moving_mast(request, mast_);
   const JointBox box = mast_.reachable_box(request.joints, request.motion_time_s);
-  const double longest_s = std::max(mast.arrival_time_s(JointPosition::from(box.min)),
-                                    mast.arrival_time_s(JointPosition::from(box.max)));
-  const double drive_m = speed_m_s(request.base_twist) * longest_s;
-  constexpr double kLongestDrive_m = 100.0;  // a slip of the unit lies beyond it
-  if (!(drive_m <= kLongestDrive_m)) {
-    throw InputError("base_twist: the base would drive " + format_number(std::round(drive_m)) +
-                     " m while the joints move, at most 100 m can be predicted");
-  }
+  const double longest_s = mast.longest_arrival_time_s(box);
+  const double drive_m = request.base_twist.speed_m_s() * longest_s;
+  check_drive(drive_m, std::abs(request.base_twist.wz_rad_s) * longest_s);
 
-  const double lever_m = mast_.options().sensor_offset_m.norm();
-  // Along the optical axis, the corner of the image is farther away than the range.
-  const double tan_h = std::tan(sensor_.half_fov_horizontal_rad);
-  const double tan_v = std::tan(sensor_.half_fov_vertical_rad);
-  const double stretch = sensor_.range_axis == RangeAxis::z_depth
-                             ? std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v)
-                             : 1.0;
   // The drive in pieces: no point of a piece is farther from its middle than half its length.
   constexpr double kPiece_m = 0.5;
   const int pieces = std::max(1, static_cast<int>(std::ceil(drive_m / kPiece_m)));
-  const double radius_m = lever_m + stretch * sensor_.range_max_m +
+  const double radius_m = mast_.options().sensor_offset_m.norm() + sensor_.longest_range_m() +
                           grid_->lattice().resolution_m() + 0.5 * drive_m / pieces;
   Eigen::AlignedBox3d mast_tops;
   for (int piece = 0; piece < pieces; ++piece) {

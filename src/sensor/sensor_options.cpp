@@ -1,5 +1,6 @@
 #include "nbvopt/sensor/sensor_options.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "core/field_check.hpp"
@@ -25,6 +26,13 @@ void check_image(std::string_view horizontal, std::string_view vertical, int wid
 }
 
 }  // namespace
+
+double SensorOptions::longest_range_m() const {
+  if (range_axis == RangeAxis::euclidean) return range_max_m;
+  const double tan_h = std::tan(half_fov_horizontal_rad);
+  const double tan_v = std::tan(half_fov_vertical_rad);
+  return range_max_m * std::sqrt(1.0 + tan_h * tan_h + tan_v * tan_v);
+}
 
 void SensorOptions::validate() const {
   check_half_angle("sensor.half_fov_horizontal_rad", half_fov_horizontal_rad);

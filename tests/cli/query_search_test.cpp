@@ -42,6 +42,16 @@ TEST_F(CommandLine, QueryLeavesTheSurrogateOutWhereOnlyThePolishRuns) {
   EXPECT_GE(answer["gain"], answer["current_gain"]);
 }
 
+TEST_F(CommandLine, QueryStaysForTooLittleGainUnlessItsOwnLimitsCutTheSearchShort) {
+  const Arguments search{"--solver", "nlopt:direct-l", "--min-gain", "1e6"};
+  const json whole = nbvopt_json(json_query(map_file, search));
+  EXPECT_EQ(whole["status"], "no_gain_in_reach") << "whatever the solver's own limit says";
+  EXPECT_EQ(whole["gain"], whole["current_gain"]);
+  Arguments limited = search;
+  limited.insert(limited.end(), {"--max-evals", "10"});
+  EXPECT_EQ(nbvopt_json(json_query(map_file, limited))["status"], "evaluation_limit");
+}
+
 TEST_F(CommandLine, QuerySaysWhereAMovingBaseWillBe) {
   const json answer = nbvopt_json(json_query(map_file, {"--base-velocity", "0.2,-0.1,0"}));
   const double time_s = answer["move_time_s"];

@@ -269,6 +269,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{{"--base-velocity", "nan,0,0"}, 3, "--base-velocity is nan"},
                       Refusal{{"--base-velocity", "0,0,inf"}, 3, "--base-velocity is inf"},
                       Refusal{{"--base-velocity", "1e4,0,0"}, 3, "base_twist"},
+                      Refusal{{"--base-velocity", "0,0,-1e4"}, 3, "the base would turn"},
                       Refusal{{"--pan", "nan"}, 3, "--pan is nan"},
                       Refusal{{"--pan", "inf"}, 3, "--pan is inf"},
                       Refusal{{"--tilt", "0.9"}, 3, "tilt is 0.9 rad"},

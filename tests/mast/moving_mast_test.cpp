@@ -144,6 +144,15 @@ TEST(SensorMotion, IsTheDerivativeOfThePose) {
   }
 }
 
+TEST(MovingMast, IsSlowestToAFaceOfTheBox) {
+  const Mast mast(MastOptions{});
+  const MovingMast moving(mast, tilted_base(), kArc, kNow);
+  const JointBox box{kNow.vector() - Eigen::Vector3d(0.4, 0.3, 0.0),
+                     kNow.vector() + Eigen::Vector3d(0.5, 0.1, 0.15)};
+  EXPECT_NEAR(moving.longest_arrival_time_s(box), 1.0, 1e-12) << "0.15 m up at 0.15 m/s";
+  EXPECT_NEAR(moving.longest_arrival_time_s({box.min, kNow.vector()}), 0.6, 1e-12);
+}
+
 TEST(SensorMotion, IsFiniteWhereTheArrivalTimeHasItsKink) {
   const MovingMast moving(mast_with_lever(), tilted_base(), kArc, kNow);
   const SensorMotion motion = moving.sensor_motion(kNow);

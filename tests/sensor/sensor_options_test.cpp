@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -71,6 +72,16 @@ TEST(SensorOptions, EnumeratorsHaveTheNamesOfTheFiles) {
   EXPECT_EQ(to_string(Counting::per_voxel), "per_voxel");
   EXPECT_EQ(to_string(NoReturn::clear), "clear");
   EXPECT_EQ(to_string(NoReturn::ignore), "ignore");
+}
+
+TEST(SensorOptions, ReachesFartherInTheCornersAlongTheOpticalAxis) {
+  SensorOptions sensor;
+  sensor.half_fov_horizontal_rad = std::atan(0.6);
+  sensor.half_fov_vertical_rad = std::atan(0.5);
+  sensor.range_max_m = 2.0;
+  EXPECT_EQ(sensor.longest_range_m(), 2.0);
+  sensor.range_axis = RangeAxis::z_depth;
+  EXPECT_NEAR(sensor.longest_range_m(), 2.0 * std::sqrt(1.61), 1e-12);
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ class Panorama {
            const MovingMast& mast, const JointBox& box, const PanoramaOptions& options = {});
   ~Panorama();
 
-  /// G(q). `smoothing` in (0, 1] is the share of the widest tau: shrink it to anneal.
+  /// G(q). `smoothing` in (0, 1] is the share of the widest tau: shrink it to anneal. Throws
+  /// UsageError when it lies beyond, and InputError when q leads off the lattice.
   double gain(const JointPosition& q, double smoothing = 1.0) const;
 
   /// G(q) and its gradient with respect to (pan, tilt, height).

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/mast/mast.hpp"
@@ -16,6 +17,8 @@ struct BaseTwist {
   double vy_m_s = 0.0;
   double wz_rad_s = 0.0;
 
+  /// Of the base's origin.
+  double speed_m_s() const { return std::hypot(vx_m_s, vy_m_s); }
   bool is_zero() const { return vx_m_s == 0.0 && vy_m_s == 0.0 && wz_rad_s == 0.0; }
   bool operator==(const BaseTwist&) const = default;
 };
@@ -40,8 +43,12 @@ class MovingMast {
   /// When the slowest joint arrives at q, seconds from now.
   double arrival_time_s(const JointPosition& q) const { return mast_.move_time_s(joints_, q); }
 
-  /// Its derivative by each joint, seconds per rad or m: that of the slowest joint alone. Where two
-  /// joints arrive together, or none moves, the time has a kink: the derivative is of one side.
+  /// When the slowest joint has arrived at any q in the box, which holds joints().
+  double longest_arrival_time_s(const JointBox& box) const;
+
+  /// The derivative of arrival_time_s() by each joint, seconds per rad or m: that of the slowest
+  /// joint alone. Where two joints arrive together, or none moves, the time has a kink: the
+  /// derivative is of one side.
   Eigen::Vector3d arrival_time_gradient(const JointPosition& q) const;
 
   /// The base predicted for a time from now.

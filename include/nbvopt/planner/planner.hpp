@@ -87,7 +87,7 @@ class Planner {
 
   /// Answers with the given solver. Throws InputError when the request is not usable: a pose, twist
   /// or joint that is not finite, a joint beyond its limits, a negative motion time, a base that
-  /// drives far away.
+  /// drives or turns too far.
   PlanResult plan(const PlanRequest& asked, const Solver& solver) const;
 
   /// The box of Algorithm 2 around the request's joints, which are within their limits, its height
@@ -96,7 +96,8 @@ class Planner {
   JointBox search_box(const PlanRequest& request) const;
 
   /// Every voxel that a view from inside the reachable box can touch, the request's joints being
-  /// within their limits. Throws InputError when the base drives more than 100 m meanwhile.
+  /// within their limits. Throws InputError when the base drives more than 100 m or turns more than
+  /// 100 rad meanwhile.
   KeyBox reachable_voxels(const PlanRequest& request) const;
 
  private:

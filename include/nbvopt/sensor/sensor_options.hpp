@@ -45,6 +45,10 @@ struct SensorOptions {
 
   bool operator==(const SensorOptions&) const = default;
 
+  /// The Euclidean distance that rays end at, at most: along the optical axis, the corners of the
+  /// image are farther away than range_max_m.
+  double longest_range_m() const;
+
   /// Throws InputError that names the first bad field with its value.
   void validate() const;
 };
