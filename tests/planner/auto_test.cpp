@@ -86,6 +86,7 @@ PlanRequest random_request(std::mt19937_64& random) {
     request.base_twist = {uniform(random, -0.5, 0.5), uniform(random, -0.3, 0.3),
                           uniform(random, -1.0, 1.0)};
   }
+  if (uniform_int(random, 0, 3) == 0) request.stop.max_evaluations = uniform_int(random, 1, 30);
   request.seed = random();
   return request;
 }
@@ -101,7 +102,7 @@ TEST(Auto, KeepsItsContractOnRandomQueries) {
     const PlanResult result = plan(worlds[i % 5 == 4], random_request(random));
     better += result.view.gain > result.current.gain;
   }
-  EXPECT_GT(better, kRandomQueries / 2);
+  EXPECT_GT(better, kRandomQueries / 4);
 }
 
 TEST(Auto, AnswersTheSameForAnyNumberOfThreadsAndTwice) {
@@ -193,7 +194,8 @@ TEST(Auto, AnswersOutsideOfTheMap) {
   PlanRequest request = corridor_request();
   request.T_map_base = base_pose(60.0, -40.0, 0.0, 0.3);
   const PlanResult result = plan(office(), request);
-  EXPECT_EQ(result.status, PlanStatus::optimal_within_tolerance);
+  EXPECT_NE(result.status, PlanStatus::no_gain_in_reach);
+  EXPECT_GT(result.view.gain, 1000.0) << "all is unknown";
   EXPECT_THAT(result.warnings, Contains(HasSubstr("outside the map")));
 }
 
@@ -262,15 +264,19 @@ TEST(Auto, KeepsToItsEvaluations) {
   double last_gain = 0.0;
   for (const std::int64_t limit : {1, 2, 3, 10, 100}) {
     PlanRequest request = corridor_request();
+    request.joints.tilt_rad = -0.7;  // nearer to the lower end of its box
     request.stop.max_evaluations = limit;
     const PlanResult result = plan(world, request);
+    if (limit == 1) {
+      EXPECT_EQ(result.joints, request.joints);
+    }
     EXPECT_LE(result.evaluations + result.surrogate_evaluations, limit);
     EXPECT_EQ(result.status, PlanStatus::evaluation_limit) << limit;
     EXPECT_FALSE(result.message.empty());
     EXPECT_GE(result.view.gain, last_gain) << limit;
     last_gain = result.view.gain;
   }
-  EXPECT_GT(last_gain, plan(world, corridor_request()).current.gain + 1.0);
+  EXPECT_GT(last_gain, plan(world, corridor_request()).current.gain);
 }
 
 TEST(Auto, StaysWhenItsDeadlineIsOver) {
