@@ -96,8 +96,10 @@ StrategySolver::StrategySolver(std::string name, StrategyOptions options)
 
 SolveResult StrategySolver::do_solve(const Objective& objective,
                                      const SolveRequest& request) const {
-  check_stage("global", stages_.global.get(), cheapest_surrogate(objective));
-  if (stages_.local) check_stage("local", stages_.local.get(), *objective.surrogate());
+  if (needs().surrogate) {
+    check_stage("global", stages_.global.get(), *objective.surrogate());
+    check_stage("local", stages_.local.get(), *objective.surrogate());
+  }
   check_stage("polish", stages_.polish.get(), objective);
   return StrategySearch(options_, stages_, objective, request).run();
 }

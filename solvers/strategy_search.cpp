@@ -24,12 +24,6 @@ constexpr double kLocalShare = 1.0 / 4.0;
 
 }  // namespace
 
-const Objective& cheapest_surrogate(const Objective& objective) {
-  const Objective* cheapest = &objective;
-  while (cheapest->surrogate()) cheapest = cheapest->surrogate();
-  return *cheapest;
-}
-
 StrategySearch::StrategySearch(const StrategyOptions& options, const StrategyStages& stages,
                                const Objective& objective, const SolveRequest& request)
     : options_(options),
@@ -39,9 +33,7 @@ StrategySearch::StrategySearch(const StrategyOptions& options, const StrategySta
       best_(objective) {
   if (!stages.global && !stages.local) return;
   reserved_evaluations_ = 1;
-  const Objective& cheapest = cheapest_surrogate(objective);
-  surrogates_.emplace_back(*objective.surrogate());
-  if (&cheapest != objective.surrogate()) surrogates_.emplace_back(cheapest);
+  surrogate_.emplace(*objective.surrogate());
 }
 
 SolveResult StrategySearch::run() {
@@ -53,22 +45,23 @@ SolveResult StrategySearch::run() {
 }
 
 std::vector<StrategySearch::Candidate> StrategySearch::survey() {
-  if (surrogates_.empty() || must_end()) return {};
-  RecordingObjective& surrogate = surrogates_.back();
-  sample(surrogate);
-  if (stages_.global && !must_end()) search_globally(surrogate);
+  if (!surrogate_ || must_end()) return {};
+  sample();
+  SolveStatus status = SolveStatus::converged;
+  if (stages_.global && !must_end()) status = search_globally();
 
   std::vector<Candidate> starts;
-  for (const std::size_t i :
-       separate_points(surrogate, surrogate.points(), surrogate.values(), options_.start_separation,
-                       static_cast<std::size_t>(options_.local_starts))) {
-    starts.push_back({surrogate.points().col(static_cast<Eigen::Index>(i)), surrogate.values()[i]});
+  for (const std::size_t i : separate_points(*surrogate_, surrogate_->points(),
+                                             surrogate_->values(), options_.start_separation,
+                                             static_cast<std::size_t>(options_.local_starts))) {
+    starts.push_back(
+        {surrogate_->points().col(static_cast<Eigen::Index>(i)), surrogate_->values()[i], status});
   }
   return starts;
 }
 
-void StrategySearch::sample(RecordingObjective& surrogate) {
-  const std::vector<Point> points = start_points(surrogate, options_.edge_points);
+void StrategySearch::sample() {
+  const std::vector<Point> points = start_points(*surrogate_, options_.edge_points);
   auto next = points.begin() + 1;  // a search evaluates its start first
   const auto next_candidate = [&]() -> std::optional<Point> {
     if (next == points.end()) return std::nullopt;
@@ -76,39 +69,40 @@ void StrategySearch::sample(RecordingObjective& surrogate) {
   };
   const std::int64_t limit =
       std::max(kFewestSamples, ration(static_cast<std::int64_t>(points.size()), kSampleShare));
-  batch_search(surrogate, stage_request(points.front(), limit), next_candidate,
+  batch_search(*surrogate_, stage_request(points.front(), limit), next_candidate,
                SolveStatus::grid_complete);
-  note_stage(surrogate.evaluations(), "samples");
+  note_stage(surrogate_->evaluations(), "samples");
 }
 
-void StrategySearch::search_globally(RecordingObjective& surrogate) {
-  const std::int64_t before = surrogate.evaluations();
-  const auto best = separate_points(surrogate, surrogate.points(), surrogate.values(), 0.0, 1);
+SolveStatus StrategySearch::search_globally() {
+  const std::int64_t before = surrogate_->evaluations();
+  const auto best =
+      separate_points(*surrogate_, surrogate_->points(), surrogate_->values(), 0.0, 1);
   const Point start =
-      best.empty() ? request_.start : surrogate.points().col(static_cast<Eigen::Index>(best[0]));
-  stages_.global->solve(surrogate,
-                        stage_request(start, ration(options_.global_evaluations, kGlobalShare)));
-  note_stage(surrogate.evaluations() - before, "of global " + stages_.global->name());
+      best.empty() ? request_.start : surrogate_->points().col(static_cast<Eigen::Index>(best[0]));
+  const SolveResult end = stages_.global->solve(
+      *surrogate_, stage_request(start, ration(options_.global_evaluations, kGlobalShare)));
+  note_stage(surrogate_->evaluations() - before, "of global " + stages_.global->name());
+  return end.status;
 }
 
 std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<Candidate>& starts) {
   std::vector<Candidate> ends;
   if (stages_.local && !starts.empty()) {
-    RecordingObjective& surrogate = surrogates_.front();
-    const std::int64_t before = surrogate.evaluations();
+    const std::int64_t before = surrogate_->evaluations();
     const std::int64_t limit =
         ration(options_.local_evaluations * static_cast<std::int64_t>(starts.size()), kLocalShare);
     for (const Candidate& start : starts) {
-      const std::int64_t left = limit - (surrogate.evaluations() - before);
+      const std::int64_t left = limit - (surrogate_->evaluations() - before);
       if (must_end() || left < 1) break;
-      const ShiftedPeriod shifted(surrogate, start.x);
+      const ShiftedPeriod shifted(*surrogate_, start.x);
       const SolveResult end = stages_.local->solve(
           shifted, stage_request(start.x, std::min(left, options_.local_evaluations)));
       ends.push_back({shifted.wrapped(end.best), end.value, end.status});
     }
-    note_stage(surrogate.evaluations() - before, "of local " + stages_.local->name() + " from " +
-                                                     std::to_string(ends.size()) +
-                                                     (ends.size() == 1 ? " start" : " starts"));
+    note_stage(surrogate_->evaluations() - before, "of local " + stages_.local->name() + " from " +
+                                                       std::to_string(ends.size()) +
+                                                       (ends.size() == 1 ? " start" : " starts"));
   }
   return best_separate(ends.empty() ? starts : ends);
 }
@@ -120,7 +114,7 @@ void StrategySearch::judge(const std::vector<Candidate>& candidates) {
     const bool is_first = &candidate == &candidates.front();
     if (!is_first && must_end()) break;
     judge(candidate.x);
-    if (best_.point() == candidate.x) local_status_ = candidate.status;
+    if (is_first || best_.point() == candidate.x) search_status_ = candidate.status;
   }
 }
 
@@ -163,9 +157,7 @@ bool StrategySearch::must_end() {
 }
 
 std::int64_t StrategySearch::surrogate_evaluations() const {
-  std::int64_t sum = 0;
-  for (const RecordingObjective& surrogate : surrogates_) sum += surrogate.evaluations();
-  return sum;
+  return surrogate_ ? surrogate_->evaluations() : 0;
 }
 
 std::int64_t StrategySearch::ration(std::int64_t planned, double share) {
@@ -191,14 +183,16 @@ SolveStatus StrategySearch::status() const {
   if (limit_) return *limit_;
   if (is_rationed_) return SolveStatus::evaluation_limit;
   if (polish_status_ != SolveStatus::converged) return polish_status_;
-  if (local_status_ != SolveStatus::converged) return SolveStatus::evaluation_limit;
+  // A polish that follows no local search is one itself.
+  if (stages_.polish && !stages_.local) return SolveStatus::converged;
+  if (search_status_ != SolveStatus::converged) return SolveStatus::evaluation_limit;
   return SolveStatus::converged;
 }
 
 SolveResult StrategySearch::result() const {
   const std::int64_t of_surrogates = surrogate_evaluations();
   std::string message = solve_message(status(), objective_.evaluations());
-  if (of_surrogates > 0) message += " and " + std::to_string(of_surrogates) + " of surrogates";
+  if (of_surrogates > 0) message += " and " + std::to_string(of_surrogates) + " of the surrogate";
   return {status(),      message + stages_note_,   best_.point(),
           best_.value(), objective_.evaluations(), of_surrogates};
 }

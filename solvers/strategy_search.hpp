@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,9 +11,6 @@
 #include "strategy.hpp"
 
 namespace nbvopt {
-
-/// The last of the chain of surrogates; the objective itself where it has none.
-const Objective& cheapest_surrogate(const Objective& objective);
 
 /// Runs the stages on one objective, once. What its references refer to must outlive it.
 class StrategySearch {
@@ -28,17 +24,16 @@ class StrategySearch {
   /// A point worth the objective's judgement.
   struct Candidate {
     Point x;
-    double value = 0.0;  ///< of a surrogate
-    /// Of the local search that ended here.
-    SolveStatus status = SolveStatus::converged;
+    double value = 0.0;                         ///< of the surrogate
+    SolveStatus status = SolveStatus::not_run;  ///< of the search that found it
   };
 
-  /// The best separate points that samples and the global solver met on the cheapest surrogate.
+  /// The best separate points of the surrogate that samples and the global solver met.
   std::vector<Candidate> survey();
-  void sample(RecordingObjective& surrogate);
-  void search_globally(RecordingObjective& surrogate);
+  void sample();
+  SolveStatus search_globally();
 
-  /// The best separate points that the local solver reached on the first surrogate.
+  /// The best separate points of the surrogate that the local solver reached.
   std::vector<Candidate> climb(const std::vector<Candidate>& starts);
 
   /// Has the objective evaluate the candidates, the first even where a limit ends the search.
@@ -65,12 +60,13 @@ class StrategySearch {
   const StrategyStages& stages_;
   const SolveRequest& request_;
   RecordingObjective objective_;
-  std::deque<RecordingObjective> surrogates_;  ///< the first and, unless the same, the cheapest
+  std::optional<RecordingObjective> surrogate_;  ///< none where only the polish runs
   BestSeen best_;
-  std::int64_t reserved_evaluations_ = 0;  ///< kept for the best point of the surrogates
+  std::int64_t reserved_evaluations_ = 0;  ///< kept for the best point of the surrogate
   bool is_rationed_ = false;               ///< a stage had to plan for less
   std::optional<SolveStatus> limit_;       ///< what ended the search early
-  SolveStatus local_status_ = SolveStatus::converged;  ///< of the search that led to best_
+  /// Of the search on the surrogate that led to best_, or to the first point judged.
+  SolveStatus search_status_ = SolveStatus::converged;
   SolveStatus polish_status_ = SolveStatus::converged;
   std::string stages_note_;
 };

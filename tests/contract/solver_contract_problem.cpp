@@ -34,28 +34,20 @@ Textbook surrogate_of(Textbook textbook) {
       jacobian(i, 0) += 2.0 * kError * std::cos(phase);
     }
   };
-  --textbook.surrogates;
+  textbook.has_surrogate = false;
   return textbook;
 }
 
 }  // namespace
 
 TextbookProblem::TextbookProblem(Textbook textbook) : textbook_(std::move(textbook)) {
-  if (textbook_.surrogates == 0) return;
+  if (!textbook_.has_surrogate) return;
   surrogate_ = std::make_unique<TextbookProblem>(surrogate_of(textbook_));
 }
 
 void TextbookProblem::use_threads(std::size_t threads) {
   threads_ = threads;
   if (surrogate_) surrogate_->use_threads(threads);
-}
-
-std::vector<Record> TextbookProblem::surrogate_records() const {
-  std::vector<Record> records;
-  for (const TextbookProblem* problem = surrogate(); problem; problem = problem->surrogate()) {
-    records.insert(records.end(), problem->records_.begin(), problem->records_.end());
-  }
-  return records;
 }
 
 double TextbookProblem::period(Eigen::Index coordinate) const {

@@ -22,13 +22,13 @@ struct Record {
   double value;
 };
 
-/// What makes a problem, and the chain of its surrogates.
+/// What makes a problem and its surrogate.
 struct Textbook {
   Box box;
   Eigen::Index residual_count;
   ResidualFunction residuals;
   Eigen::Index periodic_coordinate = -1;  ///< turns once over the box; -1: none
-  int surrogates = 2;                     ///< each a small smooth error away from the one before
+  bool has_surrogate = true;              ///< a small smooth error away
 };
 
 /// value(x) = top - |r(x)|^2, so that gradient and residuals follow from r. Writes down every
@@ -41,12 +41,10 @@ class TextbookProblem final : public Objective {
 
   /// Called before each evaluation with its number, from 1 on; may throw.
   std::function<void(std::size_t)> before_evaluation = [](std::size_t) {};
-  /// Threads of values(), of the surrogates too.
+  /// Threads of values(), of the surrogate too.
   void use_threads(std::size_t threads);
 
   const std::vector<Record>& records() const { return records_; }
-  /// Of all the surrogates.
-  std::vector<Record> surrogate_records() const;
 
   const Box& box() const override { return textbook_.box; }
   double period(Eigen::Index coordinate) const override;

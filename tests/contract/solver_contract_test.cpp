@@ -60,7 +60,7 @@ void expect_contract(const SolveResult& result, const TextbookProblem& problem,
   EXPECT_FALSE(result.message.empty());
   EXPECT_EQ(result.evaluations, static_cast<std::int64_t>(records.size()));
   EXPECT_LE(result.evaluations + result.surrogate_evaluations, request.stop.max_evaluations);
-  const std::vector<Record> surrogate_records = problem.surrogate_records();
+  const std::vector<Record>& surrogate_records = problem.surrogate()->records();
   EXPECT_EQ(result.surrogate_evaluations, static_cast<std::int64_t>(surrogate_records.size()));
   for (const Record& record : surrogate_records) {
     EXPECT_TRUE(problem.box().contains(record.x)) << record.x.transpose();

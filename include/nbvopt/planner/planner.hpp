@@ -68,7 +68,7 @@ struct PlanResult {
   JointBox box;                            ///< the reachable box, obstacles included
   std::vector<std::string> active_bounds;  ///< such as "tilt_min": faces that the answer lies on
   std::int64_t evaluations = 0;            ///< of the evaluator, staying included
-  std::int64_t surrogate_evaluations = 0;  ///< of the solver's surrogates
+  std::int64_t surrogate_evaluations = 0;  ///< of the surrogate
   double search_time_ms = std::numeric_limits<double>::quiet_NaN();
   std::string solver;
   std::uint64_t seed = 0;

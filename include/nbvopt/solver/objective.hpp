@@ -51,7 +51,6 @@ class Objective {
   }
 
   /// A cheaper objective over the same box with nearly the same values, smooth if need be, or null.
-  /// It may have one of its own, cheaper still.
   virtual const Objective* surrogate() const { return nullptr; }
 
   virtual bool has_gradient() const { return false; }

@@ -46,7 +46,7 @@ struct SolveResult {
   Point best;
   double value = std::numeric_limits<double>::quiet_NaN();
   std::int64_t evaluations = 0;            ///< of the objective
-  std::int64_t surrogate_evaluations = 0;  ///< of its surrogates, by strategies
+  std::int64_t surrogate_evaluations = 0;  ///< of its surrogate, by strategies
 };
 
 /// A maximiser over a box. The answer lies in the box, is never worse than the start nor than any

@@ -1,4 +1,4 @@
-// Strategies: global on a surrogate, local on a surrogate, a short polish on the objective itself.
+// Strategies: global on a surrogate, local on the same, a short polish on the objective itself.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace nbvopt {
 /// The stages of a strategy, each a solver of the registry, and what bounds them. A solver left
 /// empty leaves its stage out. The defaults are the solver "auto".
 struct StrategyOptions {
-  std::string global = "nlopt:direct-l";  ///< on the cheapest surrogate
+  std::string global = "nlopt:direct-l";  ///< on the objective's surrogate
   std::string local = "nlopt:lbfgs";      ///< on the objective's surrogate
   std::string polish = "nlopt:cobyla";    ///< on the objective
 
@@ -34,14 +34,14 @@ struct StrategyOptions {
   std::int64_t polish_evaluations = 60;
 };
 
-/// A solver that searches on the objective's surrogates and answers with what the objective itself
+/// A solver that searches on the objective's surrogate and answers with what the objective itself
 /// evaluated. Without a global and a local stage it needs no surrogate.
 ///
-/// The evaluation limit bounds those of the objective and of its surrogates together; one that is
+/// The evaluation limit bounds those of the objective and of its surrogate together; one that is
 /// too tight for all stages is shared out among them. Without one the stages' own limits hold. One
 /// evaluation is kept for the surrogate's best point: when a limit ends the search early, the
 /// objective judges that point first. The status is `converged` when the local search that led to
-/// the answer and the polish met their tolerances.
+/// the answer and the polish met their tolerances; without both, when the global solver did.
 ///
 /// Throws UsageError: a name that is not known, a solver that cannot work in its stage, an option
 /// out of range. Solving throws it where an objective lacks what a stage needs.
