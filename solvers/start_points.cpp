@@ -72,7 +72,7 @@ std::vector<Point> spread(std::vector<Point> points) {
 
 }  // namespace
 
-std::vector<Point> start_points(const Objective& objective, int edge_points) {
+std::vector<Point> start_points(const Objective& objective, int line_points) {
   const Box& box = objective.box();
   if (const auto free = (box.lower.array() < box.upper.array()).count();
       free > kMostFreeCoordinates) {
@@ -80,15 +80,15 @@ std::vector<Point> start_points(const Objective& objective, int edge_points) {
                      std::to_string(kMostFreeCoordinates) +
                      ", of which a strategy samples all corners: freeze some");
   }
-  std::vector<Levels> lattice;
-  std::vector<Levels> edges;
+  std::vector<Levels> levels;
   for (Eigen::Index i = 0; i < box.dimension(); ++i) {
-    lattice.push_back(ends_and_centre(objective, i));
-    edges.push_back(i == 0 ? inside(objective, i, edge_points) : ends(objective, i));
+    levels.push_back(ends_and_centre(objective, i));
+    if (i > 0) continue;
+    const Levels more = inside(objective, i, line_points);
+    levels.front().insert(levels.front().end(), more.begin(), more.end());
   }
   std::vector<Point> points;
-  append_combinations(lattice, points);
-  append_combinations(edges, points);
+  append_combinations(levels, points);
   return spread(std::move(points));
 }
 

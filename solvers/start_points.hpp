@@ -10,10 +10,10 @@ namespace nbvopt {
 
 inline constexpr int kMostFreeCoordinates = 8;
 
-/// The corners, the centres of edges, faces and the box (3^d points), then `edge_points` points
-/// evenly spread inside each edge that runs along coordinate 0. A frozen coordinate has one value,
-/// the ends of a periodic one are one point, and no point comes twice. Throws UsageError when more
-/// than kMostFreeCoordinates can move.
-std::vector<Point> start_points(const Objective& objective, int edge_points);
+/// The corners, the centres of edges, faces and the box (3^d points), and `line_points` points
+/// evenly spread inside each line through three of them that runs along coordinate 0. A frozen
+/// coordinate has one value, the ends of a periodic one are one point, and no point comes twice.
+/// Throws UsageError when more than kMostFreeCoordinates can move.
+std::vector<Point> start_points(const Objective& objective, int line_points);
 
 }  // namespace nbvopt

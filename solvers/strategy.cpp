@@ -25,7 +25,7 @@ StrategyOptions checked(StrategyOptions options) {
   if (options.global.empty() && options.local.empty() && options.polish.empty()) {
     throw UsageError("strategy: every stage is left out: name a global, local or polish solver");
   }
-  check(options.edge_points >= 0, "edge_points", options.edge_points, "0 or more");
+  check(options.line_points >= 0, "line_points", options.line_points, "0 or more");
   check_at_least_1("global_evaluations", options.global_evaluations);
   check_at_least_1("local_starts", options.local_starts);
   check(options.start_separation >= 0.0 && options.start_separation <= 1.0, "start_separation",

@@ -61,7 +61,7 @@ std::vector<StrategySearch::Candidate> StrategySearch::survey() {
 }
 
 void StrategySearch::sample() {
-  const std::vector<Point> points = start_points(*surrogate_, options_.edge_points);
+  const std::vector<Point> points = start_points(*surrogate_, options_.line_points);
   auto next = points.begin() + 1;  // a search evaluates its start first
   const auto next_candidate = [&]() -> std::optional<Point> {
     if (next == points.end()) return std::nullopt;

@@ -59,25 +59,25 @@ std::vector<std::vector<double>> lists(const std::vector<Point>& points) {
   return result;
 }
 
-TEST(StartPoints, AreTheLatticeOfThreeAndPointsInsideTheEdgesOfTheFirstCoordinate) {
+TEST(StartPoints, AreTheLatticeOfThreeAndPointsInsideItsLinesAlongTheFirstCoordinate) {
   const FirstCoordinate f({point({0, 10}), point({6, 20})});
   EXPECT_THAT(lists(start_points(f, 2)),
               UnorderedElementsAre(ElementsAre(0, 10), ElementsAre(3, 10), ElementsAre(6, 10),
                                    ElementsAre(0, 15), ElementsAre(3, 15), ElementsAre(6, 15),
                                    ElementsAre(0, 20), ElementsAre(3, 20), ElementsAre(6, 20),
-                                   ElementsAre(2, 10), ElementsAre(4, 10), ElementsAre(2, 20),
-                                   ElementsAre(4, 20)));
+                                   ElementsAre(2, 10), ElementsAre(4, 10), ElementsAre(2, 15),
+                                   ElementsAre(4, 15), ElementsAre(2, 20), ElementsAre(4, 20)));
 }
 
-TEST(StartPoints, Are27And48InThreeCoordinates) {
+TEST(StartPoints, AreNineLinesInThreeCoordinates) {
   const FirstCoordinate f({point({0, 0, 0}), point({1, 2, 3})});
-  EXPECT_EQ(start_points(f, 12).size(), 75U);
+  EXPECT_EQ(start_points(f, 12).size(), 9U * (3U + 12U));
 }
 
 TEST(StartPoints, HaveNoPointTwice) {
   const FirstCoordinate f({point({0, 1, 0}), point({1, 1, 1})}, 1.0);
-  for (const int edge_points : {0, 1, 2, 3, 12}) {
-    std::vector<std::vector<double>> points = lists(start_points(f, edge_points));
+  for (const int line_points : {0, 1, 2, 3, 12}) {
+    std::vector<std::vector<double>> points = lists(start_points(f, line_points));
     std::sort(points.begin(), points.end());
     EXPECT_EQ(std::adjacent_find(points.begin(), points.end()), points.end());
     for (const std::vector<double>& x : points) {
@@ -87,7 +87,7 @@ TEST(StartPoints, HaveNoPointTwice) {
   }
 }
 
-TEST(StartPoints, LeaveTheEdgesOutWhereTheFirstCoordinateIsFrozen) {
+TEST(StartPoints, LeaveTheLinesOutWhereTheFirstCoordinateIsFrozen) {
   const FirstCoordinate f({point({2, 0}), point({2, 1})});
   EXPECT_THAT(lists(start_points(f, 12)),
               UnorderedElementsAre(ElementsAre(2, 0), ElementsAre(2, 0.5), ElementsAre(2, 1)));

@@ -16,19 +16,19 @@ struct StrategyOptions {
   std::string local = "nlopt:lbfgs";      ///< on the objective's surrogate
   std::string polish = "nlopt:cobyla";    ///< on the objective
 
-  /// Points sampled inside each edge of the box that runs along coordinate 0, beside the corners
-  /// and the centres of edges, faces and box.
-  int edge_points = 10;
-  std::int64_t global_evaluations = 80;
+  /// Points sampled inside each line along coordinate 0 from face to face, through corners and
+  /// through centres of edges, faces and box; these are sampled as well.
+  int line_points = 7;
+  std::int64_t global_evaluations = 20;
 
-  int local_starts = 6;
+  int local_starts = 5;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
-  double start_separation = 0.1;
+  double start_separation = 0.08;
   double local_tolerance = 0.1;         ///< as SolverOptions::tolerance
   std::int64_t local_evaluations = 60;  ///< of each start
 
   /// Local optima that the objective judges; the polish starts from the best.
-  int polish_candidates = 3;
+  int polish_candidates = 2;
   double polish_tolerance = 0.02;  ///< as SolverOptions::tolerance
   double polish_step = 1.0;        ///< as SolverOptions::initial_step
   std::int64_t polish_evaluations = 60;
