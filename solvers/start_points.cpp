@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "nbvopt/core/error.hpp"
@@ -56,9 +57,9 @@ void append_combinations(const std::vector<Levels>& levels, std::vector<Point>& 
   }
 }
 
-/// The same points, in an order of which every beginning is spread over the box: by steps of the
-/// golden section. A search that must end early has then looked everywhere a little.
-std::vector<Point> spread(std::vector<Point> points) {
+/// The same points, in an order of which every beginning is spread over them: by steps of the
+/// golden section.
+void spread(std::span<Point> points) {
   const std::size_t count = points.size();
   std::size_t step =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::lround((std::numbers::phi - 1.0) *
@@ -67,7 +68,15 @@ std::vector<Point> spread(std::vector<Point> points) {
   std::vector<Point> result;
   result.reserve(count);
   for (std::size_t i = 0; i < count; ++i) result.push_back(std::move(points[i * step % count]));
-  return result;
+  std::move(result.begin(), result.end(), points.begin());
+}
+
+/// Whether the point lies on an edge of the box that runs along coordinate 0.
+bool is_on_edge(const Box& box, const Point& x) {
+  for (Eigen::Index i = 1; i < x.size(); ++i) {
+    if (x[i] != box.lower[i] && x[i] != box.upper[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -89,7 +98,12 @@ std::vector<Point> start_points(const Objective& objective, int line_points) {
   }
   std::vector<Point> points;
   append_combinations(levels, points);
-  return spread(std::move(points));
+  // A search that must end early should have looked everywhere a little, on edges first.
+  const auto inner = std::stable_partition(points.begin(), points.end(),
+                                           [&](const Point& x) { return is_on_edge(box, x); });
+  spread({points.begin(), inner});
+  spread({inner, points.end()});
+  return points;
 }
 
 }  // namespace nbvopt
