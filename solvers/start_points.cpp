@@ -31,7 +31,7 @@ Levels ends_and_centre(const Objective& objective, Eigen::Index i) {
   return levels;
 }
 
-/// The centre of the edge is left out: ends_and_centre() has it.
+/// The centre is left out: ends_and_centre() has it.
 Levels inside(const Objective& objective, Eigen::Index i, int count) {
   const double lower = objective.box().lower[i];
   const double upper = objective.box().upper[i];
