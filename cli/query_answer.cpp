@@ -50,7 +50,8 @@ std::string gain_line(const PlanResult& result) {
 }
 
 std::string evaluation_count(const PlanResult& result) {
-  std::string text = std::to_string(result.evaluations) + " evaluations";
+  std::string text = std::to_string(result.evaluations) +
+                     (result.evaluations == 1 ? " evaluation" : " evaluations");
   if (result.surrogate_evaluations > 0) {
     text += " and " + std::to_string(result.surrogate_evaluations) + " of the surrogate";
   }

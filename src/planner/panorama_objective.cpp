@@ -38,8 +38,11 @@ double PanoramaObjective::value_and_residuals(const Point& x, Eigen::VectorXd& r
   panorama().patch_gains(JointPosition::from(x), gains, jacobian);
   const double bound = panorama().patch_gain_bound();
   residuals = ((bound - gains.array()).max(0.0) + kResidualFloor * bound).sqrt();
-  // d sqrt(w - g) = -dg / (2 sqrt(w - g)).
-  if (jacobian) *jacobian = (-0.5 * residuals.cwiseInverse()).asDiagonal() * *jacobian;
+  if (jacobian) {
+    // d sqrt(w - g) = -dg / (2 sqrt(w - g)), and nothing where g is held to the bound.
+    const Eigen::ArrayXd is_below = (gains.array() < bound).cast<double>();
+    *jacobian = (-0.5 * is_below / residuals.array()).matrix().asDiagonal() * *jacobian;
+  }
   return noted(x, gains.sum());
 }
 

@@ -65,7 +65,7 @@ class Panorama {
   void patch_gains(const JointPosition& q, Eigen::VectorXd& gains,
                    Eigen::MatrixXd* derivatives) const;
 
-  /// More than any patch gains.
+  /// More than a patch gains, unless a hit is centimetres from a view that is far off its layer.
   double patch_gain_bound() const;
 
  private:
