@@ -1,8 +1,11 @@
-// The scale of an axis.
+// The scale of an axis, and how it is drawn.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "cli/canvas.hpp"
 
 namespace nbvopt {
 
@@ -17,5 +20,17 @@ struct Ticks {
 
 /// About `count` ticks within [min, max], min < max.
 Ticks make_ticks(double min, double max, int count);
+
+/// Where a value lies along an axis, in page coordinates.
+using ToPage = std::function<double(double value)>;
+
+/// Ticks, their labels and the title below a panel.
+void draw_axis_below(Canvas& canvas, const Rectangle& panel, const Ticks& ticks,
+                     const ToPage& to_page_x, const std::string& title);
+
+/// The same to its left; `label_gap` and `title_gap` are points from the panel.
+void draw_axis_left(Canvas& canvas, const Rectangle& panel, const Ticks& ticks,
+                    const ToPage& to_page_y, const std::string& title, double label_gap,
+                    double title_gap);
 
 }  // namespace nbvopt

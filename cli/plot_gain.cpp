@@ -69,15 +69,9 @@ void draw_axes(Canvas& canvas, const Chart& chart) {
     canvas.stroke_open(Line{{panel.x, y}, {panel.right(), y}}, {style::kGridLine, 1.0});
     canvas.text({panel.x - 8.0, y + 4.0}, gains.label(gain), style::note(Anchor::right));
   }
-  const Ticks pans = make_ticks(chart.pan_min_rad, chart.pan_max_rad, 7);
-  for (const double pan_rad : pans.values) {
-    const double x = chart.to_page(pan_rad, 0.0).x();
-    canvas.stroke_open(Line{{x, panel.bottom()}, {x, panel.bottom() + 4.0}},
-                       {style::kMutedInk, 1.0});
-    canvas.text({x, panel.bottom() + 17.0}, pans.label(pan_rad), style::note(Anchor::centre));
-  }
-  canvas.text({panel.x + 0.5 * panel.width, panel.bottom() + 34.0}, "pan (rad)",
-              style::body(Anchor::centre));
+  draw_axis_below(
+      canvas, panel, make_ticks(chart.pan_min_rad, chart.pan_max_rad, 7),
+      [&](double pan_rad) { return chart.to_page(pan_rad, 0.0).x(); }, "pan (rad)");
 }
 
 /// The area between two gains along the curve.

@@ -57,23 +57,12 @@ void draw_gains(Canvas& canvas, const Chart& chart, const GainLandscape& landsca
 void draw_axes(Canvas& canvas, const Chart& chart) {
   const Rectangle& panel = chart.panel;
   canvas.stroke(panel, {style::kMutedInk, 1.0});
-  const Ticks pans = make_ticks(chart.min_rad.x(), chart.max_rad.x(), 14);
-  for (const double pan_rad : pans.values) {
-    const double x = chart.to_page(pan_rad, 0.0).x();
-    canvas.stroke_open(Line{{x, panel.bottom()}, {x, panel.bottom() + 4.0}},
-                       {style::kMutedInk, 1.0});
-    canvas.text({x, panel.bottom() + 17.0}, pans.label(pan_rad), style::note(Anchor::centre));
-  }
-  const Ticks tilts = make_ticks(chart.min_rad.y(), chart.max_rad.y(), 5);
-  for (const double tilt_rad : tilts.values) {
-    const double y = chart.to_page(0.0, tilt_rad).y();
-    canvas.stroke_open(Line{{panel.x - 4.0, y}, {panel.x, y}}, {style::kMutedInk, 1.0});
-    canvas.text({panel.x - 12.0, y + 4.0}, tilts.label(tilt_rad), style::note(Anchor::right));
-  }
-  canvas.text({panel.x + 0.5 * panel.width, panel.bottom() + 34.0}, "pan (rad)",
-              style::body(Anchor::centre));
-  canvas.upright_text({panel.x - 48.0, panel.y + 0.5 * panel.height}, "tilt (rad)",
-                      style::body(Anchor::centre));
+  draw_axis_below(
+      canvas, panel, make_ticks(chart.min_rad.x(), chart.max_rad.x(), 14),
+      [&](double pan_rad) { return chart.to_page(pan_rad, 0.0).x(); }, "pan (rad)");
+  draw_axis_left(
+      canvas, panel, make_ticks(chart.min_rad.y(), chart.max_rad.y(), 5),
+      [&](double tilt_rad) { return chart.to_page(0.0, tilt_rad).y(); }, "tilt (rad)", 12.0, 48.0);
 }
 
 void draw_scale(Canvas& canvas, const Chart& chart) {

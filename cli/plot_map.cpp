@@ -141,23 +141,18 @@ void draw_scale_bar(Canvas& canvas, const TopView& view) {
 void draw_axes(Canvas& canvas, const TopView& view) {
   const auto& [panel, min_m, side_m] = view;
   canvas.stroke(panel, {style::kMutedInk, 1.0});
-  const Ticks along_x = make_ticks(min_m.x(), min_m.x() + side_m, kTicks);
-  for (const double x_m : along_x.values) {
-    const double x = view.to_page({x_m, min_m.y()}).x();
-    canvas.stroke_open(Polygon{{x, panel.bottom()}, {x, panel.bottom() + 4.0}},
-                       {style::kMutedInk, 1.0});
-    canvas.text({x, panel.bottom() + 17.0}, along_x.label(x_m), style::note(Anchor::centre));
-  }
-  const Ticks along_y = make_ticks(min_m.y(), min_m.y() + side_m, kTicks);
-  for (const double y_m : along_y.values) {
-    const double y = view.to_page({min_m.x(), y_m}).y();
-    canvas.stroke_open(Polygon{{panel.x - 4.0, y}, {panel.x, y}}, {style::kMutedInk, 1.0});
-    canvas.text({panel.x - 8.0, y + 4.0}, along_y.label(y_m), style::note(Anchor::right));
-  }
-  canvas.text({panel.x + 0.5 * panel.width, panel.bottom() + 34.0}, "map x (m)",
-              style::body(Anchor::centre));
-  canvas.upright_text({panel.x - 36.0, panel.y + 0.5 * panel.height}, "map y (m)",
-                      style::body(Anchor::centre));
+  draw_axis_below(
+      canvas, panel, make_ticks(min_m.x(), min_m.x() + side_m, kTicks),
+      [&](double x_m) {
+        return view.to_page({x_m, view.min_m.y()}).x();
+      },
+      "map x (m)");
+  draw_axis_left(
+      canvas, panel, make_ticks(min_m.y(), min_m.y() + side_m, kTicks),
+      [&](double y_m) {
+        return view.to_page({view.min_m.x(), y_m}).y();
+      },
+      "map y (m)", 8.0, 36.0);
 }
 
 }  // namespace
