@@ -118,23 +118,16 @@ class Panorama::Impl {
     if (!(smoothing > 0.0 && smoothing <= 1.0)) {
       throw UsageError("panorama: smoothing is a share of the widest, give above 0 and at most 1");
     }
-    const Transform T_map_sensor = mast_.T_map_sensor(q);
     const SensorMotion motion = gradient ? mast_.sensor_motion(q) : SensorMotion{};
     double gain = 0.0;
     if (gradient) gradient->setZero();
-    for (const LayerWeight& weight : weights(q)) {
-      if (weight.weight == 0.0) continue;  // its slope is 0 there as well
-      const PanoramaView view = view_of(T_map_sensor, weight.layer, smoothing);
-      thread_local std::vector<std::uint32_t> ids;
-      const PanoramaLayer& layer = select(weight.layer, view, ids);
-      if (!gradient) {
-        gain += weight.weight * layer_gain(layer, view, ids);
-        continue;
-      }
-      const PanoramaSum sum = layer_sum(layer, view, ids);
-      gain += weight.weight * sum.gain;
-      *gradient += weight.weight * joint_gradient(sum, motion) + sum.gain * weight.gradient;
-    }
+    for_each_layer(q, smoothing,
+                   [&](const LayerWeight& weight, const PanoramaLayer& layer,
+                       const PanoramaView& view, std::span<const std::uint32_t> ids) {
+                     const PanoramaSum sum = layer_sum(layer, view, ids, gradient != nullptr);
+                     gain += weight.weight * sum.gain;
+                     if (gradient) *gradient += weighted_gradient(weight, sum, motion);
+                   });
     return gain;
   }
 
@@ -153,25 +146,33 @@ class Panorama::Impl {
     const auto patches = static_cast<Eigen::Index>(patch_count());
     gains.setZero(patches);
     if (derivatives) derivatives->setZero(patches, 3);
-    const Transform T_map_sensor = mast_.T_map_sensor(q);
     const SensorMotion motion = mast_.sensor_motion(q);
-    for (const LayerWeight& weight : weights(q)) {
-      if (weight.weight == 0.0) continue;
-      const PanoramaView view = view_of(T_map_sensor, weight.layer, 1.0);
-      thread_local std::vector<std::uint32_t> ids;
-      const PanoramaLayer& layer = select(weight.layer, view, ids);
-      for (const std::uint32_t id : ids) {
-        const PanoramaSum sum =
-            kernel_.gain_and_motion(model_, view, layer.blocks(), std::span(&id, 1));
-        gains[id] += weight.weight * sum.gain;
-        if (!derivatives) continue;
-        derivatives->row(id) +=
-            (weight.weight * joint_gradient(sum, motion) + sum.gain * weight.gradient).transpose();
-      }
-    }
+    for_each_layer(q, 1.0,
+                   [&](const LayerWeight& weight, const PanoramaLayer& layer,
+                       const PanoramaView& view, std::span<const std::uint32_t> ids) {
+                     for (const std::uint32_t id : ids) {
+                       const PanoramaSum sum = layer_sum(layer, view, std::span(&id, 1), true);
+                       gains[id] += weight.weight * sum.gain;
+                       if (derivatives)
+                         derivatives->row(id) += weighted_gradient(weight, sum, motion).transpose();
+                     }
+                   });
   }
 
  private:
+  /// Visits the layers that count at q, with all cast that the view needs: the patches `ids`.
+  template <typename Visit>
+  void for_each_layer(const JointPosition& q, double smoothing, const Visit& visit) {
+    const Transform T_map_sensor = mast_.T_map_sensor(q);
+    for (const LayerWeight& weight : weights(q)) {
+      if (weight.weight == 0.0) continue;  // its slope is 0 there as well
+      const PanoramaView view = view_of(T_map_sensor, weight.layer, smoothing);
+      thread_local std::vector<std::uint32_t> ids;
+      const PanoramaLayer& layer = select(weight.layer, view, ids);
+      visit(weight, layer, view, std::span<const std::uint32_t>(ids));
+    }
+  }
+
   detail::PanoramaDirections directions(const JointBox& box, const PanoramaOptions& options) const {
     const JointBox seen = with_turn(box, mast_.base_twist().wz_rad_s * longest_time_s_);
     return {detail::directions_in_reach(seen, model_.half_fov_h_rad + tau_h_rad_,
@@ -241,29 +242,25 @@ class Panorama::Impl {
     return *layer;
   }
 
-  double layer_gain(const PanoramaLayer& layer, const PanoramaView& view,
-                    std::span<const std::uint32_t> ids) const {
-    if (counting_ == Counting::per_voxel) {
-      return detail::voxel_sum(kernel_, model_, view, layer, ids, false).gain;
-    }
-    return kernel_.gain(model_, view, layer.blocks(), ids);
-  }
-
+  /// The sum over patches of a layer; its derivatives are 0 unless they are asked for.
   PanoramaSum layer_sum(const PanoramaLayer& layer, const PanoramaView& view,
-                        std::span<const std::uint32_t> ids) const {
+                        std::span<const std::uint32_t> ids, bool with_motion) const {
     if (counting_ == Counting::per_voxel) {
-      return detail::voxel_sum(kernel_, model_, view, layer, ids, true);
+      return detail::voxel_sum(kernel_, model_, view, layer, ids, with_motion);
     }
-    return kernel_.gain_and_motion(model_, view, layer.blocks(), ids);
+    if (with_motion) return kernel_.gain_and_motion(model_, view, layer.blocks(), ids);
+    return {.gain = kernel_.gain(model_, view, layer.blocks(), ids)};
   }
 
-  static Eigen::Vector3d joint_gradient(const PanoramaSum& sum, const SensorMotion& motion) {
-    Eigen::Vector3d gradient;
+  /// By each joint, of the layer's weight times its sum.
+  static Eigen::Vector3d weighted_gradient(const LayerWeight& weight, const PanoramaSum& sum,
+                                           const SensorMotion& motion) {
+    Eigen::Vector3d by_joint;
     for (std::size_t i = 0; i < 3; ++i) {
-      gradient[static_cast<Eigen::Index>(i)] =
+      by_joint[static_cast<Eigen::Index>(i)] =
           -(motion.angular[i].dot(sum.torque) + motion.linear[i].dot(sum.force));
     }
-    return gradient;
+    return weight.weight * by_joint + sum.gain * weight.gradient;
   }
 
   std::shared_ptr<const VoxelGrid> grid_;

@@ -1,6 +1,5 @@
 #include "gain/panorama_layer.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
