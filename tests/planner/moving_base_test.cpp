@@ -76,25 +76,9 @@ TEST(MovingBase, IsNeverWorseThanStaying) {
 
 TEST(MovingBase, ReachesEveryVoxelThatAViewCanTouchOnItsWay) {
   const World world(free_cube());
-  const Mast mast(world.robot.mast);
-  const CameraRays rays = DepthCamera(world.robot.sensor).rays();
   std::mt19937_64 random(9);
   for (const BaseTwist& twist : {BaseTwist{0.8, 0.0, 0.0}, BaseTwist{0.6, -0.3, 1.5}}) {
-    PlanRequest request = driving_request(twist, 0.0);
-    const KeyBox touched = world.planner().reachable_voxels(request);
-    const JointBox box = mast.reachable_box(request.joints, request.motion_time_s);
-    for (int i = 0; i < 100; ++i) {
-      const JointPosition q{uniform(random, box.min[0], box.max[0]),
-                            uniform(random, box.min[1], box.max[1]),
-                            uniform(random, box.min[2], box.max[2])};
-      const Transform T = T_map_sensor(request, mast, q);
-      for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-        const VoxelKey key =
-            world.grid->lattice().key(T * (rays.direction(ray) * rays.range_max_m[ray]));
-        ASSERT_TRUE(key.x >= touched.min.x && key.x <= touched.max.x && key.y >= touched.min.y &&
-                    key.y <= touched.max.y && key.z >= touched.min.z && key.z <= touched.max.z);
-      }
-    }
+    expect_views_within_reach(world, driving_request(twist, 0.0), random);
   }
 }
 

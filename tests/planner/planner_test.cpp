@@ -359,22 +359,7 @@ TEST(Planner, SaysThatThereIsNoGainOnlyAfterAWholeSearch) {
 TEST(Planner, ReachesEveryVoxelThatAViewCanTouch) {
   const World world(free_cube());
   std::mt19937_64 random(9);
-  const PlanRequest request = request_at(kMiddle, 0.3);
-  const KeyBox touched = world.planner().reachable_voxels(request);
-  const JointBox box = Mast(world.robot.mast).reachable_box(kMiddle, 0.3);
-  const CameraRays rays = DepthCamera(world.robot.sensor).rays();
-  for (int i = 0; i < 100; ++i) {
-    const JointPosition q{uniform(random, box.min[0], box.max[0]),
-                          uniform(random, box.min[1], box.max[1]),
-                          uniform(random, box.min[2], box.max[2])};
-    const Transform T = T_map_sensor(request, Mast(world.robot.mast), q);
-    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-      const VoxelKey key =
-          world.grid->lattice().key(T * (rays.direction(ray) * rays.range_max_m[ray]));
-      ASSERT_TRUE(key.x >= touched.min.x && key.x <= touched.max.x && key.y >= touched.min.y &&
-                  key.y <= touched.max.y && key.z >= touched.min.z && key.z <= touched.max.z);
-    }
-  }
+  expect_views_within_reach(world, request_at(kMiddle, 0.3), random);
 }
 
 TEST(PlanResult, IsBornAsNotRun) {

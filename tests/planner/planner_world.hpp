@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <random>
 
 #include "nbvopt/planner/planner.hpp"
 #include "nbvopt/solver/registry.hpp"
@@ -110,6 +111,27 @@ inline void expect_contract(const World& world, const PlanRequest& request,
   if (result.status == PlanStatus::no_gain_in_reach) {
     EXPECT_EQ(result.joints, request.joints);
     EXPECT_LT(result.view.gain, request.min_gain);
+  }
+}
+
+/// The end of every ray, from 100 random joint positions in reach, lies in the reachable voxels.
+inline void expect_views_within_reach(const World& world, const PlanRequest& request,
+                                      std::mt19937_64& random) {
+  const Mast mast(world.robot.mast);
+  const CameraRays rays = DepthCamera(world.robot.sensor).rays();
+  const KeyBox touched = world.planner().reachable_voxels(request);
+  const JointBox box = mast.reachable_box(request.joints, request.motion_time_s);
+  for (int i = 0; i < 100; ++i) {
+    const JointPosition q{uniform(random, box.min[0], box.max[0]),
+                          uniform(random, box.min[1], box.max[1]),
+                          uniform(random, box.min[2], box.max[2])};
+    const Transform T = T_map_sensor(request, mast, q);
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+      const VoxelKey key =
+          world.grid->lattice().key(T * (rays.direction(ray) * rays.range_max_m[ray]));
+      ASSERT_TRUE(key.x >= touched.min.x && key.x <= touched.max.x && key.y >= touched.min.y &&
+                  key.y <= touched.max.y && key.z >= touched.min.z && key.z <= touched.max.z);
+    }
   }
 }
 

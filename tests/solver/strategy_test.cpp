@@ -238,20 +238,16 @@ TEST(Strategy, RunsAnyLocalSolver) {
   }
 }
 
-TEST(Strategy, SaysThatALocalSearchWasCutShort) {
-  StrategyOptions options;
-  options.local_evaluations = 2;
-  const TextbookProblem problem(rastrigin_on_a_face());
-  const SolveResult result = solve(problem, request_from(Eigen::Vector2d(-3.2, 0.1)), options);
-  EXPECT_EQ(result.status, SolveStatus::evaluation_limit) << result.message;
-}
-
-TEST(Strategy, SaysThatThePolishWasCutShort) {
-  StrategyOptions options;
-  options.polish_evaluations = 5;
-  const TextbookProblem problem(rastrigin_on_a_face());
-  const SolveResult result = solve(problem, request_from(Eigen::Vector2d(-3.2, 0.1)), options);
-  EXPECT_EQ(result.status, SolveStatus::evaluation_limit) << result.message;
+TEST(Strategy, SaysThatAStageWasCutShort) {
+  StrategyOptions short_local;
+  short_local.local_evaluations = 2;
+  StrategyOptions short_polish;
+  short_polish.polish_evaluations = 5;
+  for (const StrategyOptions& options : {short_local, short_polish}) {
+    const TextbookProblem problem(rastrigin_on_a_face());
+    const SolveResult result = solve(problem, request_from(Eigen::Vector2d(-3.2, 0.1)), options);
+    EXPECT_EQ(result.status, SolveStatus::evaluation_limit) << result.message;
+  }
 }
 
 /// The surrogate's best point is judged by the objective whatever limit holds.
