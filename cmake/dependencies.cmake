@@ -9,3 +9,7 @@ find_package(PNG 1.6 REQUIRED)
 # Debian's C++ build of NLopt, which has StoGO and AGS; the plain one throws when asked for them.
 find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
 find_package(Ceres 2.1 REQUIRED CONFIG)
+# The simulator's: worlds, meshes, rays.
+find_package(embree 3.13 REQUIRED CONFIG)
+find_package(sdformat12 12.3 REQUIRED CONFIG)
+find_package(assimp 5.2 REQUIRED CONFIG)

@@ -1,0 +1,62 @@
+// A robot that explores a plane by itself, or drives where it is told: where trajectories come
+// from.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "nbvopt/core/transform.hpp"
+#include "nbvopt/sim/occupancy_grid.hpp"
+#include "nbvopt/sim/scene.hpp"
+#include "nbvopt/sim/simulated_lidar.hpp"
+#include "nbvopt/sim/trajectory.hpp"
+
+namespace nbvopt {
+
+/// An omnidirectional base, the default about a TurtleBot3 Waffle with the paper's speeds.
+struct BaseOptions {
+  double radius_m = 0.22;
+  double speed_max_m_s = 0.25;
+  double turn_rate_max_rad_s = 0.52;
+  double acceleration_max_m_s2 = 0.5;
+  double turn_acceleration_max_rad_s2 = 1.0;
+};
+
+struct ExplorationOptions {
+  BaseOptions base;
+  LidarOptions lidar;
+  double mapping_range_m = 4.0;  ///< beams are cropped here, as in the paper
+  double cell_m = 0.05;          ///< of the occupancy grid
+  std::uint64_t seed = 1;        ///< of the trees
+  double duration_max_s = 3600.0;
+  std::function<void(double time_s)> progress;  ///< called now and then; may throw to end it
+};
+
+enum class ExplorationStatus {
+  complete,    ///< no frontier is left that can be reached
+  time_limit,  ///< duration_max_s came first
+};
+
+/// A drive and the plane map that it made.
+struct Exploration {
+  ExplorationStatus status;
+  Trajectory trajectory;
+  OccupancyGrid grid;
+};
+
+/// Explores all that can be reached from the start, with frontiers found by rapidly-exploring
+/// random trees after Umari and Mukhopadhyay. Localisation is perfect. The same seed gives the same
+/// trajectory. Throws InputError when the start is not free (in or at a wall), an option is bad.
+Exploration explore(const Scene& scene, const Transform& T_map_base,
+                    const ExplorationOptions& options);
+
+/// Drives to the goals (x, y in the map) in turn, through what is free or not yet known, planning
+/// again as the lidar shows more. Throws InputError as above, and when a goal cannot be reached
+/// (named with its number and position).
+Exploration drive_to(const Scene& scene, const Transform& T_map_base,
+                     std::span<const Eigen::Vector2d> goals_map_m,
+                     const ExplorationOptions& options);
+
+}  // namespace nbvopt

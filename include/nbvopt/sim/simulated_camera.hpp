@@ -1,0 +1,42 @@
+// A depth camera that sees a scene.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "nbvopt/core/transform.hpp"
+#include "nbvopt/map/scan.hpp"
+#include "nbvopt/sensor/depth_camera.hpp"
+#include "nbvopt/sensor/sensor_options.hpp"
+#include "nbvopt/sim/scene.hpp"
+
+namespace nbvopt {
+
+/// Takes the depth images of SensorOptions: horizontal_pixels x vertical_pixels, pinhole.
+class SimulatedCamera {
+ public:
+  /// Ranges get Gaussian noise of this standard deviation; 0: none. Throws InputError when it is
+  /// negative or not finite, and as SensorOptions::validate() does. The scene must outlive the
+  /// camera.
+  SimulatedCamera(const Scene& scene, const SensorOptions& sensor, double range_noise_m,
+                  std::uint64_t seed);
+
+  /// The frame as a driver gives it: a return a pixel that meets a surface in range, a no-return a
+  /// pixel that meets none. What stands nearer than range_min_m gives neither. Frames of the same
+  /// number from the same pose are equal, noise included, for any number of threads.
+  Scan capture(const Transform& T_map_sensor, std::uint64_t frame) const;
+
+  /// The distances along the planning rays, DepthCamera::rays() in their order: +inf where nothing
+  /// is nearer than the ray's range_max_m. Without noise, and down to the optical centre.
+  std::vector<float> planning_distances_m(const Transform& T_map_sensor) const;
+
+ private:
+  const Scene& scene_;
+  DepthCamera camera_;
+  CameraRays pixels_;  ///< of the depth image
+  double range_noise_m_;
+  std::uint64_t seed_;
+};
+
+}  // namespace nbvopt

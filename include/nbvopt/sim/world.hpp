@@ -1,0 +1,43 @@
+// Worlds from files: Gazebo worlds with their models, and single meshes.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nbvopt/sim/triangle_mesh.hpp"
+
+namespace nbvopt {
+
+enum class WorldGeometry { visual, collision };
+
+/// How a world is read.
+struct WorldOptions {
+  /// Folders that hold models by name, searched in this order, after the world's own: the folder of
+  /// the file and the folders `models` in it and beside it.
+  std::vector<std::filesystem::path> model_paths;
+  WorldGeometry geometry = WorldGeometry::visual;
+  bool is_strict = false;  ///< refuse a world that would load with parts missing
+  /// Where built worlds are kept; none: nowhere. A kept world is read again as long as every file
+  /// that it was built from is unchanged.
+  std::optional<std::filesystem::path> cache_folder;
+};
+
+/// A world in the map frame.
+struct World {
+  TriangleMesh mesh;
+  Eigen::AlignedBox3d bounds_m;  ///< of everything but planes
+  std::uint64_t models = 0;      ///< top-level ones; 0 for a single mesh
+  std::uint64_t nested_models = 0;
+  std::vector<std::string> warnings;  ///< one line each: what is missing, faulty or left out
+};
+
+/// Reads a Gazebo world (.world, .sdf) or a single mesh (PLY, OBJ, STL, COLLADA; metres). Throws
+/// InputError that names the file: missing or not readable, not a world, without any geometry;
+/// when strict, the first part that is missing.
+World read_world(const std::filesystem::path& path, const WorldOptions& options);
+
+}  // namespace nbvopt

@@ -1,0 +1,66 @@
+#include "nbvopt/sim/simulated_camera.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+std::vector<float> cast(const Scene& scene, const CameraRays& rays, const SensorOptions& sensor,
+                        const Transform& T_map_sensor) {
+  std::vector<Eigen::Vector3f> directions_map(rays.size());
+  const Eigen::Matrix3d& R_map_sensor = T_map_sensor.linear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    directions_map[i] = (R_map_sensor * rays.direction(i)).cast<float>();
+  }
+  std::vector<float> distances_m(rays.size());
+  scene.first_hits(T_map_sensor.translation(), directions_map,
+                   static_cast<float>(sensor.longest_range_m()), distances_m);
+  return distances_m;
+}
+
+}  // namespace
+
+SimulatedCamera::SimulatedCamera(const Scene& scene, const SensorOptions& sensor,
+                                 double range_noise_m, std::uint64_t seed)
+    : scene_(scene),
+      camera_(sensor),
+      pixels_(make_rays(sensor, sensor.horizontal_pixels, sensor.vertical_pixels)),
+      range_noise_m_(range_noise_m),
+      seed_(seed) {
+  if (!(range_noise_m >= 0.0 && std::isfinite(range_noise_m))) {
+    throw InputError("the range noise is " + format_number(range_noise_m) +
+                     " m, it must be 0 or more and finite");
+  }
+}
+
+Scan SimulatedCamera::capture(const Transform& T_map_sensor, std::uint64_t frame) const {
+  const std::vector<float> distances_m = cast(scene_, pixels_, camera_.options(), T_map_sensor);
+  std::seed_seq seeds{seed_, seed_ >> 32, frame, frame >> 32};
+  std::mt19937_64 random(seeds);
+  std::normal_distribution<double> noise_m(0.0, range_noise_m_ > 0.0 ? range_noise_m_ : 1.0);
+
+  Scan scan;
+  scan.points_m.reserve(pixels_.size());
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const double noise = range_noise_m_ > 0.0 ? noise_m(random) : 0.0;
+    const double distance_m = distances_m[i] + noise;
+    if (distance_m < pixels_.range_min_m[i]) continue;
+    const Eigen::Vector3d direction = pixels_.direction(i);
+    if (distance_m < pixels_.range_max_m[i]) {
+      scan.points_m.push_back((distance_m * direction).cast<float>());
+    } else {
+      scan.no_returns.push_back(direction.cast<float>());
+    }
+  }
+  return scan;
+}
+
+std::vector<float> SimulatedCamera::planning_distances_m(const Transform& T_map_sensor) const {
+  return cast(scene_, camera_.rays(), camera_.options(), T_map_sensor);
+}
+
+}  // namespace nbvopt
