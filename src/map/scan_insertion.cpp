@@ -26,14 +26,14 @@ void add_hit(const ScanHit& hit, const Scan& scan, MarkWindow& window) {
 }
 
 void insert_window(UncertaintyOcTree& tree, const Scan& scan, const WindowWork& work,
-                   std::vector<VoxelChange>& changes) {
+                   InsertResult& result) {
   MarkWindow window(work.least, work.tiles);
   for (const Eigen::Vector3d& end : work.rays.ends) {
     window.mark_passed(SegmentWalk(work.rays.origin, end));
   }
   for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan, window);
   window.summarise();
-  TileUpdate update(tree, window, changes);
+  TileUpdate update(tree, window, result);
   for (std::uint32_t tile = 0; tile < window.tile_count(); ++tile) update.apply(tile);
 }
 
@@ -52,7 +52,7 @@ InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform&
   result.rays_cleared = rays.cleared;
   result.points_ignored = rays.ignored;
   for (const WindowWork& work : scan_windows(std::move(rays))) {
-    insert_window(map.tree(), scan, work, result.changes);
+    insert_window(map.tree(), scan, work, result);
   }
   return result;
 }

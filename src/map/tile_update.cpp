@@ -82,8 +82,14 @@ void TileUpdate::update_leaf(Node& leaf, bool is_new, int level, std::uint32_t b
   }
   if (state == state_before && leaf.uncertainty() == uncertainty_before) return;
   const std::uint32_t voxels = 1U << 3 * level;
+  const auto is_certain = [](float uncertainty) { return uncertainty < kUnknownUncertainty; };
+  result_.information_gained +=
+      voxels * (double{uncertainty_before} - double{leaf.uncertainty()});  // Equations (10), (11)
+  result_.certain_voxels_gained +=
+      static_cast<std::int64_t>(voxels) *
+      (int{is_certain(leaf.uncertainty())} - int{is_certain(uncertainty_before)});
   for (std::uint32_t number = block * voxels; number < (block + 1) * voxels; ++number) {
-    changes_.push_back({window_.key(number), state, leaf.uncertainty()});
+    result_.changes.push_back({window_.key(number), state, leaf.uncertainty()});
   }
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "map/mark_window.hpp"
 #include "map/uncertainty_octree.hpp"
+#include "nbvopt/map/scan.hpp"
 
 namespace nbvopt {
 
@@ -13,9 +13,10 @@ namespace nbvopt {
 /// pruned on the way back. Untouched branches are not visited.
 class TileUpdate {
  public:
-  /// Changes are appended in the order of the window's voxels.
-  TileUpdate(UncertaintyOcTree& tree, const MarkWindow& window, std::vector<VoxelChange>& changes)
-      : tree_(tree), window_(window), changes_(changes) {}
+  /// Changes are appended to those of the result in the order of the window's voxels, and what they
+  /// gain is added.
+  TileUpdate(UncertaintyOcTree& tree, const MarkWindow& window, InsertResult& result)
+      : tree_(tree), window_(window), result_(result) {}
 
   /// Updates one tile of the window.
   void apply(std::uint32_t tile);
@@ -31,7 +32,7 @@ class TileUpdate {
 
   UncertaintyOcTree& tree_;
   const MarkWindow& window_;
-  std::vector<VoxelChange>& changes_;
+  InsertResult& result_;
 };
 
 }  // namespace nbvopt

@@ -135,6 +135,16 @@ MapCounts UncertaintyMap::counts() const {
   return counts;
 }
 
+PaperCounts UncertaintyMap::paper_counts() const {
+  PaperCounts counts;
+  for (auto node = tree_->begin_tree(); node != tree_->end_tree(); ++node) {
+    if (node->uncertainty() >= kUnknownUncertainty) continue;
+    ++counts.voxels;
+    counts.information += 1.0 - node->uncertainty();
+  }
+  return counts;
+}
+
 std::optional<KeyBox> UncertaintyMap::known_box() const {
   std::optional<KeyBox> box;
   if (tree_->getRoot() != nullptr) grow_known_box(*tree_, *tree_->getRoot(), {}, 0, box);

@@ -85,6 +85,16 @@ double Mast::move_time_s(const JointPosition& from, const JointPosition& to) con
   return ((to.vector() - from.vector()).cwiseAbs().array() / velocity_.array()).maxCoeff();
 }
 
+JointPosition Mast::on_the_way(const JointPosition& from, const JointPosition& to,
+                               double elapsed_s) const {
+  const Eigen::Vector3d reach = velocity_ * elapsed_s;
+  const Eigen::Vector3d way = to.vector() - from.vector();
+  // Not from + way, so that who has arrived is there to the last bit.
+  return JointPosition::from(
+      (way.cwiseAbs().array() <= reach.array())
+          .select(to.vector(), from.vector() + way.cwiseSign().cwiseProduct(reach)));
+}
+
 JointPosition Mast::clamped(const JointPosition& q, std::vector<std::string>& warnings) const {
   const JointBox joint_limits = limits(options_);
   Eigen::Vector3d inside = q.vector();

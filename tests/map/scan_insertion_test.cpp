@@ -304,6 +304,21 @@ TEST(InsertScan, ReturnsEveryChangeOnce) {
 }
 
 /// Inner nodes and pruning after insertions are what they are after restoring the whole tree.
+TEST(InsertScan, TellsWhatTheMapGained) {
+  UncertaintyMap map(0.1);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const MapCounts before = map.counts();
+    // Every fifth scan clears what others have made occupied.
+    const InsertResult result =
+        insert(map, seed % 5 == 4 ? no_returns({{0.0F, 0.0F, 1.0F}, {0.1F, 0.0F, 1.0F}})
+                                  : random_scan(seed, 300));
+    const MapCounts after = map.counts();
+    EXPECT_NEAR(result.information_gained, after.information - before.information, 1e-9);
+    EXPECT_EQ(result.certain_voxels_gained, static_cast<std::int64_t>(after.certain_voxels) -
+                                                static_cast<std::int64_t>(before.certain_voxels));
+  }
+}
+
 TEST(InsertScan, LeavesTheTreeInOrder) {
   UncertaintyMap map(0.1);
   for (unsigned seed = 1; seed <= 8; ++seed) {

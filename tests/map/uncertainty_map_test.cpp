@@ -94,6 +94,19 @@ TEST(UncertaintyMap, PrunesOnlyWhereAllIsEqual) {
   }
 }
 
+TEST(UncertaintyMap, CountsInnerNodesAsThePaperDoes) {
+  UncertaintyMap map(0.1);
+  EXPECT_EQ(map.paper_counts().voxels, 0U);
+  set_cube(map, {64, 64, 64}, 4, occupied(0.25F));
+  map.finish_writing();
+  EXPECT_EQ(map.paper_counts().voxels, 15U) << "one leaf of 64 voxels, 14 inner nodes above it";
+  EXPECT_DOUBLE_EQ(map.paper_counts().information, 15 * 0.75);
+
+  map.set({68, 64, 64}, kFree);  // in the leaf's neighbour: the nodes above both hold u = 1
+  map.finish_writing();
+  EXPECT_EQ(map.paper_counts().voxels, 1U);
+}
+
 TEST(UncertaintyMap, WritesOneVoxelOfAPrunedLeafAndNoOther) {
   UncertaintyMap map(0.1);
   set_cube(map, {64, 64, 64}, 8, occupied(0.25F));

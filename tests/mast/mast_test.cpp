@@ -133,6 +133,18 @@ TEST(MoveTime, IsThatOfTheSlowestJoint) {
   EXPECT_EQ(mast.move_time_s({0.0, 0.0, 0.3}, {0.0, 0.0, 0.3}), 0.0);
 }
 
+TEST(OnTheWay, MovesEachJointAtItsVelocityUntilItHasArrived) {
+  const Mast mast(MastOptions{});
+  const JointPosition from{0.0, 0.1, 0.3};
+  const JointPosition to{-pi, 0.2, 0.6};
+  EXPECT_EQ(mast.on_the_way(from, to, 0.0), from);
+  const JointPosition half = mast.on_the_way(from, to, 0.5);
+  EXPECT_DOUBLE_EQ(half.pan_rad, -pi / 2.0);
+  EXPECT_EQ(half.tilt_rad, to.tilt_rad);
+  EXPECT_DOUBLE_EQ(half.height_m, 0.375);
+  EXPECT_EQ(mast.on_the_way(from, to, mast.move_time_s(from, to) + 0.001), to);
+}
+
 // Joints beyond their limits.
 
 TEST(Clamped, LeavesWhatIsInsideAndTurnsOfAContinuousPan) {

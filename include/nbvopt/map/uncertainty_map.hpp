@@ -30,6 +30,13 @@ struct MapCounts {
   std::uint64_t nodes = 0;  ///< leaves and inner nodes
 };
 
+/// Counts as the paper's released services give them: over all nodes of the tree with u < 1, inner
+/// ones included, a pruned leaf once. They depend on the shape of the tree; for comparison only.
+struct PaperCounts {
+  std::uint64_t voxels = 0;
+  double information = 0.0;  ///< sum of 1 - u
+};
+
 /// An octree over OctoMap's lattice. Its invariants: a leaf is pruned only where occupancy, colour
 /// and uncertainty of all that it covers are equal; an inner node holds its children's maximum
 /// occupancy and maximum u. One thread writes at a time; reading is safe while nobody writes.
@@ -58,6 +65,7 @@ class UncertaintyMap {
   void finish_writing();
 
   MapCounts counts() const;
+  PaperCounts paper_counts() const;
 
   /// The smallest box that holds every known voxel; none when the map is empty.
   std::optional<KeyBox> known_box() const;

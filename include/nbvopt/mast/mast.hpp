@@ -81,6 +81,11 @@ class Mast {
   /// The time that the slowest joint needs from one position to another, seconds.
   double move_time_s(const JointPosition& from, const JointPosition& to) const;
 
+  /// Where the joints are on their way from one position to another, each at its velocity until it
+  /// has arrived, this long after they set out.
+  JointPosition on_the_way(const JointPosition& from, const JointPosition& to,
+                           double elapsed_s) const;
+
   /// q moved into the limits. Joints beyond them by more than 0.01 rad or 5 mm are refused with
   /// an InputError that names joint, value and limits; smaller ones are clamped, each adding a
   /// line to `warnings`.
