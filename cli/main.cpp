@@ -8,13 +8,14 @@
 #include "cli/map.hpp"
 #include "cli/output.hpp"
 #include "cli/query.hpp"
+#include "cli/reproduce.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map};
+constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map, set_up_reproduce};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {
