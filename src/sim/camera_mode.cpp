@@ -1,0 +1,94 @@
+#include "nbvopt/sim/camera_mode.hpp"
+
+#include <array>
+#include <random>
+#include <string_view>
+#include <utility>
+
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/solver/registry.hpp"
+
+namespace nbvopt {
+namespace {
+
+class StaticCamera : public CameraMode {
+ public:
+  bool plans() const override { return false; }
+  NextView next_view(const Planner& /*planner*/, const PlanRequest& request) const override {
+    return {.joints = request.joints};
+  }
+};
+
+class SearchingCamera : public CameraMode {
+ public:
+  explicit SearchingCamera(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) {}
+
+  NextView next_view(const Planner& planner, const PlanRequest& request) const override {
+    const PlanResult result = planner.plan(request, *solver_);
+    return {.joints = result.joints, .predicted_gain = result.view.gain};
+  }
+
+ private:
+  std::unique_ptr<Solver> solver_;
+};
+
+class RandomCamera : public CameraMode {
+ public:
+  NextView next_view(const Planner& planner, const PlanRequest& request) const override {
+    const JointBox box = planner.search_box(request);
+    std::seed_seq seeds{request.seed, request.seed >> 32};
+    std::mt19937_64 random(seeds);
+    Eigen::Vector3d q;
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      q[i] = box.min[i] + std::generate_canonical<double, 53>(random) * (box.max[i] - box.min[i]);
+    }
+    return {.joints = JointPosition::from(q.cwiseMax(box.min).cwiseMin(box.max))};
+  }
+};
+
+std::unique_ptr<CameraMode> make_grid(const std::vector<double>& steps) {
+  return std::make_unique<SearchingCamera>(make_solver("grid", {.grid_steps = steps}));
+}
+
+struct NamedMode {
+  std::string_view name;
+  std::unique_ptr<CameraMode> (*make)();
+};
+
+constexpr std::array kModes{
+    NamedMode{"static",
+              []() -> std::unique_ptr<CameraMode> { return std::make_unique<StaticCamera>(); }},
+    NamedMode{"grid",
+              [] {
+                return make_grid({0.8, 0.0, 0.0});
+              }},
+    NamedMode{"grid-3",
+              [] {
+                return make_grid({0.4, 0.25, 0.075});
+              }},
+    NamedMode{"auto",
+              []() -> std::unique_ptr<CameraMode> {
+                return std::make_unique<SearchingCamera>(make_solver("auto", {}));
+              }},
+    NamedMode{"random",
+              []() -> std::unique_ptr<CameraMode> { return std::make_unique<RandomCamera>(); }},
+};
+
+}  // namespace
+
+std::vector<std::string> camera_mode_names() {
+  std::vector<std::string> names;
+  for (const NamedMode& mode : kModes) names.emplace_back(mode.name);
+  return names;
+}
+
+std::unique_ptr<CameraMode> make_camera_mode(const std::string& name) {
+  std::string known;
+  for (const NamedMode& mode : kModes) {
+    if (mode.name == name) return mode.make();
+    known += (known.empty() ? "" : ", ") + std::string(mode.name);
+  }
+  throw UsageError("there is no camera mode '" + name + "': the modes are " + known);
+}
+
+}  // namespace nbvopt

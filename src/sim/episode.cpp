@@ -1,0 +1,200 @@
+#include "nbvopt/sim/episode.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/map/scan.hpp"
+#include "nbvopt/map/voxel_grid.hpp"
+#include "nbvopt/sim/simulated_camera.hpp"
+#include "sim/realised_gain.hpp"
+
+namespace nbvopt {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Runs the work and adds the milliseconds that it took.
+template <class Work>
+auto timed(double& sum_ms, const Work& work) {
+  struct Stopwatch {
+    double& sum_ms;
+    Clock::time_point start = Clock::now();
+    ~Stopwatch() {
+      sum_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    }
+  } stopwatch{sum_ms};
+  return work();
+}
+
+void check_positive(const std::string& what, double value, const std::string& unit) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw InputError(what + " is " + format_number(value) + ' ' + unit +
+                   ", it must be greater than 0 and finite");
+}
+
+void check(const EpisodeOptions& options) {
+  check_positive("the motion time of an episode", options.motion_time_s, "s");
+  if (options.capture_hz) check_positive("the capture rate", *options.capture_hz, "Hz");
+}
+
+/// The joints of a camera that moves from one view to the next.
+struct JointMove {
+  JointPosition from;
+  JointPosition to;
+  double departure_s = 0.0;
+};
+
+/// The state of an episode between captures.
+class EpisodeRun {
+ public:
+  EpisodeRun(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
+             const EpisodeOptions& options, UncertaintyMap& map,
+             const std::function<void(const Capture&)>& observe)
+      : trajectory_(trajectory),
+        mode_(mode),
+        options_(options),
+        map_(map),
+        observe_(observe),
+        mast_(options.robot.mast),
+        planning_camera_(options.robot.sensor),
+        camera_(scene, options.robot.sensor, options.range_noise_m, options.seed) {
+    std::vector<std::string> warnings;
+    move_.from = move_.to = mast_.clamped(options.start_joints, warnings);
+    const MapCounts counts = map.counts();
+    summary_.duration_s = trajectory.duration_s();
+    summary_.voxels = counts.certain_voxels;
+    summary_.information = counts.information;
+    if (mode.plans()) grid_ = VoxelGrid::whole(map);
+  }
+
+  /// The loop of Fig. 4: capture, insert, plan, move, capture.
+  EpisodeSummary run() {
+    double time_s = 0.0;
+    for (std::uint64_t cycle = 1; time_s <= trajectory_.duration_s(); ++cycle) {
+      const double computing_s = 1e-3 * look_and_plan(time_s);
+      // Multiples of t, not sums, so that captures meet the trajectory's own times.
+      const double next_s = options_.charge_computing
+                                ? time_s + computing_s + options_.motion_time_s
+                                : static_cast<double>(cycle) * options_.motion_time_s;
+      capture_on_the_way(time_s, next_s);
+      time_s = next_s;
+    }
+    return summary_;
+  }
+
+ private:
+  /// Captures where the camera has been planned to look, and sets it in motion to the next view.
+  /// Returns the computing time.
+  double look_and_plan(double time_s) {
+    Capture capture = begin_capture(time_s, false);
+    // The first view was nobody's choice.
+    capture.predicted_gain = predicted_gain_;
+    if (std::isfinite(predicted_gain_)) {
+      const Transform T = T_map_sensor(capture);
+      capture.realised_gain =
+          realised_gain(map_, planning_camera_, camera_.planning_distances_m(T), T);
+      summary_.prediction.add(capture.predicted_gain, capture.realised_gain);
+    }
+    insert(capture);
+    const NextView next = plan(capture);
+    const double computing_ms = capture.insert_ms + capture.grid_ms + capture.plan_ms;
+    const double departure_s = options_.charge_computing ? time_s + 1e-3 * computing_ms : time_s;
+    move_ = {capture.joints, next.joints, departure_s};
+    predicted_gain_ = next.predicted_gain;
+    capture.motion_time_s = mast_.move_time_s(capture.joints, next.joints);
+    observe_(capture);
+    return computing_ms;
+  }
+
+  /// Captures at the extra rate between two planned views.
+  void capture_on_the_way(double begin_s, double end_s) {
+    if (!options_.capture_hz) return;
+    for (int i = 1;; ++i) {
+      const double time_s = begin_s + i / *options_.capture_hz;
+      if (time_s >= end_s || time_s > trajectory_.duration_s()) return;
+      Capture capture = begin_capture(time_s, true);
+      insert(capture);
+      observe_(capture);
+    }
+  }
+
+  Capture begin_capture(double time_s, bool is_on_the_way) {
+    Capture capture;
+    capture.frame = summary_.captures++;
+    capture.time_s = time_s;
+    capture.T_map_base = trajectory_.T_map_base(time_s);
+    capture.joints = is_on_the_way ? mast_.on_the_way(move_.from, move_.to,
+                                                      std::max(0.0, time_s - move_.departure_s))
+                                   : move_.to;
+    capture.is_on_the_way = is_on_the_way;
+    return capture;
+  }
+
+  PlanRequest request(const Capture& capture) const {
+    PlanRequest request;
+    request.T_map_base = capture.T_map_base;
+    request.joints = capture.joints;
+    request.motion_time_s = options_.motion_time_s;
+    request.seed = options_.seed + capture.frame;
+    return request;
+  }
+
+  Transform T_map_sensor(const Capture& capture) const {
+    return nbvopt::T_map_sensor(request(capture), mast_, capture.joints);
+  }
+
+  /// Takes the frame and puts it into the map.
+  void insert(Capture& capture) {
+    const Transform T = T_map_sensor(capture);
+    const Scan scan = timed(capture.render_ms, [&] { return camera_.capture(T, capture.frame); });
+    const InsertResult inserted =
+        timed(capture.insert_ms, [&] { return insert_scan(map_, scan, T, options_.robot.sensor); });
+    if (grid_) {
+      timed(capture.grid_ms, [&] { grid_ = grid_->updated(inserted.changes); });
+    }
+    summary_.voxels += static_cast<std::uint64_t>(inserted.certain_voxels_gained);
+    summary_.information += inserted.information_gained;
+    capture.points_used = inserted.points_used;
+    capture.voxels = summary_.voxels;
+    capture.information = summary_.information;
+    capture.information_gain = inserted.information_gained;
+  }
+
+  NextView plan(Capture& capture) const {
+    if (!grid_) return {.joints = capture.joints};
+    return timed(capture.plan_ms, [&] {
+      const PlanRequest asked = request(capture);
+      const Planner planner(options_.robot, grid_, make_exact_evaluator(grid_, planning_camera_));
+      grid_->make_ready(planner.reachable_voxels(asked));
+      return mode_.next_view(planner, asked);
+    });
+  }
+
+  const Trajectory& trajectory_;
+  const CameraMode& mode_;
+  const EpisodeOptions& options_;
+  UncertaintyMap& map_;
+  const std::function<void(const Capture&)>& observe_;
+  Mast mast_;
+  DepthCamera planning_camera_;
+  SimulatedCamera camera_;
+  std::shared_ptr<const VoxelGrid> grid_;  ///< of the map; null where the mode does not plan
+  JointMove move_;                         ///< the latest
+  double predicted_gain_ = Capture::kNaN;  ///< of the view that the camera moves to
+  EpisodeSummary summary_;
+};
+
+}  // namespace
+
+EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
+                           const EpisodeOptions& options, UncertaintyMap& map,
+                           const std::function<void(const Capture&)>& observe) {
+  check(options);
+  return EpisodeRun(scene, trajectory, mode, options, map, observe).run();
+}
+
+}  // namespace nbvopt
