@@ -1,0 +1,182 @@
+#include "sim/sdf_document.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <mutex>
+#include <regex>
+#include <sdf/ParserConfig.hh>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/text_file.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Keeps what is written to standard error. libsdformat reports the faults of included files there,
+/// and nowhere else.
+class CapturedErrors {
+ public:
+  CapturedErrors() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+  CapturedErrors(const CapturedErrors&) = delete;
+  CapturedErrors& operator=(const CapturedErrors&) = delete;
+  ~CapturedErrors() { std::cerr.rdbuf(before_); }
+
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
+/// Lends libsdformat a way to find files. It must be the global one: included files are read with
+/// no other.
+class LentFindCallback {
+ public:
+  explicit LentFindCallback(std::function<std::string(const std::string&)> find)
+      : before_(sdf::ParserConfig::GlobalConfig()) {
+    sdf::ParserConfig::GlobalConfig().SetFindCallback(std::move(find));
+  }
+  LentFindCallback(const LentFindCallback&) = delete;
+  LentFindCallback& operator=(const LentFindCallback&) = delete;
+  ~LentFindCallback() { sdf::ParserConfig::GlobalConfig() = before_; }
+
+ private:
+  sdf::ParserConfig before_;
+};
+
+/// The text with blanks instead of a comment before its XML declaration, so that line numbers stay.
+/// Older parsers let such a comment pass, and Gazebo's own cafe.world has one.
+std::string with_declaration_first(std::string xml) {
+  static const std::regex leading_comment(R"(^\s*<!--[^>]*-->\s*(?=<\?xml))");
+  std::smatch match;
+  if (!std::regex_search(xml, match, leading_comment)) return xml;
+  const auto length = static_cast<std::size_t>(match.length());
+  std::ranges::replace_if(
+      xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(length),
+      [](char c) { return c != '\n'; }, ' ');
+  return xml;
+}
+
+/// An error of libsdformat, as it prints them.
+struct Fault {
+  sdf::ErrorCode code;
+  std::string text;
+};
+
+std::vector<Fault> faults_in(const std::string& printed) {
+  static const std::regex pattern(R"(Error Code (\d+): (?:\[([^\n]*)\]: )?Msg: ([^\n]*))");
+  std::vector<Fault> faults;
+  for (std::sregex_iterator match(printed.begin(), printed.end(), pattern), end; match != end;
+       ++match) {
+    const std::string where = (*match)[2];
+    faults.push_back({static_cast<sdf::ErrorCode>(std::stoi((*match)[1])),
+                      (where.empty() ? "" : where + ": ") + (*match)[3].str()});
+  }
+  return faults;
+}
+
+/// Whether a fault keeps a part out of the world, or from its place in it.
+bool is_part_missing(sdf::ErrorCode code) {
+  switch (code) {
+    case sdf::ErrorCode::FILE_READ:
+    case sdf::ErrorCode::DUPLICATE_NAME:
+    case sdf::ErrorCode::ATTRIBUTE_MISSING:
+    case sdf::ErrorCode::ELEMENT_MISSING:
+    case sdf::ErrorCode::ELEMENT_INVALID:
+    case sdf::ErrorCode::URI_INVALID:
+    case sdf::ErrorCode::URI_LOOKUP:
+    case sdf::ErrorCode::POSE_RELATIVE_TO_INVALID:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void report(const std::vector<Fault>& faults, WorldLog& log) {
+  for (const Fault& fault : faults) {
+    // The first is said of worlds that loaded; includes that are not found we have reported.
+    if (fault.text == "Failed to load a world." || fault.code == sdf::ErrorCode::URI_LOOKUP)
+      continue;
+    if (is_part_missing(fault.code)) {
+      log.left_out(fault.text);
+    } else {
+      log.remark(fault.text);
+    }
+  }
+}
+
+/// Why there is neither a world nor a model.
+std::string first_cause(const std::vector<Fault>& faults, const std::string& printed) {
+  static const std::regex xml_error(R"(Error parsing XML [^\n]*)");
+  if (std::smatch match; std::regex_search(printed, match, xml_error)) return match.str();
+  for (const Fault& fault : faults) {
+    if (fault.code != sdf::ErrorCode::STRING_READ) return fault.text;
+  }
+  return "there is neither a world nor a model in it";
+}
+
+/// Answers libsdformat's questions for included models, where it finds none in the current folder.
+class IncludeFinder {
+ public:
+  IncludeFinder(const fs::path& world_folder, ModelPaths& model_paths, WorldLog& log)
+      : world_folder_(world_folder), model_paths_(model_paths), log_(log) {}
+
+  std::string operator()(const std::string& uri) const {
+    refuse_endless(uri);
+    const auto found = model_paths_.find(uri, world_folder_);
+    if (found) return found->string();
+    log_.not_found("model '" + uri + "' is not found, give its folder as a model path");
+    return {};
+  }
+
+ private:
+  /// libsdformat follows a model that includes itself until the stack ends.
+  void refuse_endless(const std::string& uri) const {
+    constexpr std::uintptr_t stack_max_bytes = 512 * 1024;  // about 100 models in each other
+    const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+    if (stack_start_ - here < stack_max_bytes) return;
+    throw InputError("model '" + uri + "' is included too deeply, does it include itself?");
+  }
+
+  fs::path world_folder_;
+  ModelPaths& model_paths_;
+  WorldLog& log_;
+  std::uintptr_t stack_start_ = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+};
+
+}  // namespace
+
+sdf::Root read_sdf_document(const fs::path& path, ModelPaths& model_paths, WorldLog& log) {
+  static std::mutex one_at_a_time;  // libsdformat's configuration and standard error are global
+  const std::lock_guard lock(one_at_a_time);
+  const std::string xml = with_declaration_first(read_text_file(path));
+  log.read(path);
+  sdf::Root root;
+  std::string printed;
+  {
+    const CapturedErrors captured;
+    const LentFindCallback lent(IncludeFinder(fs::absolute(path).parent_path(), model_paths, log));
+    std::ostringstream returned;
+    for (const sdf::Error& error : root.LoadSdfString(xml, sdf::ParserConfig::GlobalConfig())) {
+      returned << error << '\n';
+    }
+    printed = captured.text() + returned.str();
+  }
+  const std::vector<Fault> faults = faults_in(printed);
+  if (root.WorldCount() == 0 && root.Model() == nullptr) {
+    throw InputError(path.string() + ": cannot be read as SDF: " + first_cause(faults, printed));
+  }
+  report(faults, log);
+  return root;
+}
+
+}  // namespace nbvopt
