@@ -48,7 +48,7 @@ void Progress::update(double done) {
   if (now < next_) return;
   const std::string text = progress_text(what_, done, total_, Seconds(now - start_).count());
   if (is_terminal_) {
-    std::cerr << kClearLine << text << std::flush;
+    std::cerr << kClearLine + text << std::flush;  // in one piece, or it flickers
     is_drawn_ = true;
     next_ = now + kBetweenDrawings;
   } else {

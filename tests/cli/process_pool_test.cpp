@@ -95,9 +95,10 @@ TEST_F(ProcessPool, JobsReadNothingAndPrintNothing) {
 }
 
 TEST_F(ProcessPool, ASignalStopsWhatRunsAndStartsNothingMore) {
-  const PoolResult result = run({shell("true"), shell("kill -TERM $PPID; exec sleep 60"),
-                                 shell("exec sleep 60"), shell(touch("too-late"))},
-                                2);
+  std::vector<Job> jobs{shell("true"), shell("kill -TERM $PPID; exec sleep 60"),
+                        shell("exec sleep 60"), shell(touch("too-late"))};
+  jobs[1].after = 0;
+  const PoolResult result = run(jobs, 2);
   EXPECT_EQ(result.stopped_by, SIGTERM);
   EXPECT_EQ(result.jobs[0].status, JobStatus::succeeded);
   EXPECT_EQ(result.jobs[1].status, JobStatus::not_run);
