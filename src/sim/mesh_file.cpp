@@ -21,6 +21,8 @@ namespace {
 void configure(Assimp::Importer& importer) {
   // Gazebo takes the axes of a file as they are, whatever its up_axis says.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Submeshes are named as users see them in COLLADA, not by ids.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   // A file without meshes would otherwise get one that shows its bones.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,

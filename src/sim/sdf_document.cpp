@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <mutex>
-#include <regex>
 #include <sdf/ParserConfig.hh>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/text_file.hpp"
@@ -56,12 +57,16 @@ class LentFindCallback {
 /// The text with blanks instead of a comment before its XML declaration, so that line numbers stay.
 /// Older parsers let such a comment pass, and Gazebo's own cafe.world has one.
 std::string with_declaration_first(std::string xml) {
-  static const std::regex leading_comment(R"(^\s*<!--[^>]*-->\s*(?=<\?xml))");
-  std::smatch match;
-  if (!std::regex_search(xml, match, leading_comment)) return xml;
-  const auto length = static_cast<std::size_t>(match.length());
-  std::ranges::replace_if(
-      xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(length),
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t comment = xml.find_first_not_of(blanks);
+  const std::size_t comment_end = xml.find("-->", comment);
+  const std::size_t declaration = xml.find("<?xml", comment_end);
+  if (declaration == std::string::npos ||
+      !std::string_view(xml).substr(comment).starts_with("<!--"))
+    return xml;
+  if (xml.find_first_not_of(blanks, comment_end + 3) != declaration) return xml;
+  std::replace_if(
+      xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(declaration),
       [](char c) { return c != '\n'; }, ' ');
   return xml;
 }
@@ -72,14 +77,19 @@ struct Fault {
   std::string text;
 };
 
+/// Reads lines `Error Code 13: [place]: Msg: text`, where the place may be absent.
 std::vector<Fault> faults_in(const std::string& printed) {
-  static const std::regex pattern(R"(Error Code (\d+): (?:\[([^\n]*)\]: )?Msg: ([^\n]*))");
+  constexpr std::string_view start = "Error Code ";
+  constexpr std::string_view separator = "Msg: ";
   std::vector<Fault> faults;
-  for (std::sregex_iterator match(printed.begin(), printed.end(), pattern), end; match != end;
-       ++match) {
-    const std::string where = (*match)[2];
-    faults.push_back({static_cast<sdf::ErrorCode>(std::stoi((*match)[1])),
-                      (where.empty() ? "" : where + ": ") + (*match)[3].str()});
+  std::istringstream lines(printed);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t text = line.find(separator);
+    if (!line.starts_with(start) || text == std::string::npos) continue;
+    const auto code = static_cast<sdf::ErrorCode>(std::atoi(line.c_str() + start.size()));
+    const std::size_t place = line.find(": ") + 2;
+    faults.push_back(
+        {code, line.substr(place, text - place) + line.substr(text + separator.size())});
   }
   return faults;
 }
@@ -116,8 +126,9 @@ void report(const std::vector<Fault>& faults, WorldLog& log) {
 
 /// Why there is neither a world nor a model.
 std::string first_cause(const std::vector<Fault>& faults, const std::string& printed) {
-  static const std::regex xml_error(R"(Error parsing XML [^\n]*)");
-  if (std::smatch match; std::regex_search(printed, match, xml_error)) return match.str();
+  if (const std::size_t start = printed.find("Error parsing XML"); start != std::string::npos) {
+    return printed.substr(start, printed.find('\n', start) - start);
+  }
   for (const Fault& fault : faults) {
     if (fault.code != sdf::ErrorCode::STRING_READ) return fault.text;
   }
@@ -127,12 +138,12 @@ std::string first_cause(const std::vector<Fault>& faults, const std::string& pri
 /// Answers libsdformat's questions for included models, where it finds none in the current folder.
 class IncludeFinder {
  public:
-  IncludeFinder(const fs::path& world_folder, ModelPaths& model_paths, WorldLog& log)
-      : world_folder_(world_folder), model_paths_(model_paths), log_(log) {}
+  IncludeFinder(const fs::path& world_file, ModelPaths& model_paths, WorldLog& log)
+      : world_file_(world_file), model_paths_(model_paths), log_(log) {}
 
   std::string operator()(const std::string& uri) const {
     refuse_endless(uri);
-    const auto found = model_paths_.find(uri, world_folder_);
+    const auto found = model_paths_.find(uri, fs::absolute(world_file_).parent_path());
     if (found) return found->string();
     log_.not_found("model '" + uri + "' is not found, give its folder as a model path");
     return {};
@@ -141,13 +152,14 @@ class IncludeFinder {
  private:
   /// libsdformat follows a model that includes itself until the stack ends.
   void refuse_endless(const std::string& uri) const {
-    constexpr std::uintptr_t stack_max_bytes = 512 * 1024;  // about 100 models in each other
+    constexpr std::uintptr_t stack_max_bytes = 128 * 1024;  // about 25 models in each other
     const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
     if (stack_start_ - here < stack_max_bytes) return;
-    throw InputError("model '" + uri + "' is included too deeply, does it include itself?");
+    throw InputError(world_file_.string() + ": model '" + uri +
+                     "' is included too deeply, does it include itself?");
   }
 
-  fs::path world_folder_;
+  fs::path world_file_;
   ModelPaths& model_paths_;
   WorldLog& log_;
   std::uintptr_t stack_start_ = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
@@ -164,7 +176,7 @@ sdf::Root read_sdf_document(const fs::path& path, ModelPaths& model_paths, World
   std::string printed;
   {
     const CapturedErrors captured;
-    const LentFindCallback lent(IncludeFinder(fs::absolute(path).parent_path(), model_paths, log));
+    const LentFindCallback lent(IncludeFinder(path, model_paths, log));
     std::ostringstream returned;
     for (const sdf::Error& error : root.LoadSdfString(xml, sdf::ParserConfig::GlobalConfig())) {
       returned << error << '\n';

@@ -18,12 +18,12 @@ enum class WorldGeometry { visual, collision };
 struct WorldOptions {
   /// Folders that hold models by name, searched in this order, after the world's own: the folder of
   /// the file and the folders `models` in it and beside it.
-  std::vector<std::filesystem::path> model_paths;
+  std::vector<std::filesystem::path> model_paths = {};
   WorldGeometry geometry = WorldGeometry::visual;
   bool is_strict = false;  ///< refuse a world that would load with parts missing
   /// Where built worlds are kept; none: nowhere. A kept world is read again as long as every file
   /// that it was built from is unchanged.
-  std::optional<std::filesystem::path> cache_folder;
+  std::optional<std::filesystem::path> cache_folder = {};
 };
 
 /// A world in the map frame.
