@@ -1,17 +1,13 @@
 #include "office_scene.hpp"
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 
 namespace nbvopt {
 namespace {
-
-/// An axis-parallel box in the map frame.
-struct SceneBox {
-  Eigen::Vector3d min_m;
-  Eigen::Vector3d max_m;
-};
 
 using SceneBoxes = std::vector<SceneBox>;
 
@@ -85,6 +81,50 @@ SceneBoxes furniture() {
   return boxes;
 }
 
+/// The coordinates on an axis where something begins or ends.
+std::vector<double> cuts(const SceneBoxes& boxes, Eigen::Index axis) {
+  std::set<double> cuts{kBuilding.min_m[axis], kBuilding.max_m[axis]};
+  for (const SceneBox& box : boxes) cuts.insert({box.min_m[axis], box.max_m[axis]});
+  return {cuts.begin(), cuts.end()};
+}
+
+/// Adds a box, or lengthens the one before where it goes on along z.
+void add_or_lengthen(SceneBoxes& boxes, const SceneBox& box) {
+  if (!boxes.empty()) {
+    SceneBox& last = boxes.back();
+    const bool is_same_column =
+        last.min_m.head<2>() == box.min_m.head<2>() && last.max_m.head<2>() == box.max_m.head<2>();
+    if (is_same_column && last.max_m.z() == box.min_m.z()) {
+      last.max_m.z() = box.max_m.z();
+      return;
+    }
+  }
+  boxes.push_back(box);
+}
+
+/// What is left of the building: the cuts' planes divide it into blocks, each solid or empty.
+SceneBoxes walls() {
+  const SceneBoxes empty = cut_out();
+  const auto is_solid = [&](const Eigen::Vector3d& p) {
+    return std::ranges::none_of(empty, [&](const SceneBox& box) {
+      return (p.array() > box.min_m.array()).all() && (p.array() < box.max_m.array()).all();
+    });
+  };
+  const std::vector<double> xs = cuts(empty, 0);
+  const std::vector<double> ys = cuts(empty, 1);
+  const std::vector<double> zs = cuts(empty, 2);
+  SceneBoxes boxes;
+  for (std::size_t x = 1; x < xs.size(); ++x) {
+    for (std::size_t y = 1; y < ys.size(); ++y) {
+      for (std::size_t z = 1; z < zs.size(); ++z) {
+        const SceneBox block{{xs[x - 1], ys[y - 1], zs[z - 1]}, {xs[x], ys[y], zs[z]}};
+        if (is_solid(0.5 * (block.min_m + block.max_m))) add_or_lengthen(boxes, block);
+      }
+    }
+  }
+  return boxes;
+}
+
 /// Writes every voxel that shares volume with the box.
 void paint(UncertaintyMap& map, const SceneBox& box, const VoxelRecord& record) {
   // Faces lie on voxel faces: without the margin, rounding would decide the neighbour's fate.
@@ -99,6 +139,12 @@ void paint(UncertaintyMap& map, const SceneBox& box, const VoxelRecord& record) 
 }
 
 }  // namespace
+
+std::vector<SceneBox> office_boxes() {
+  SceneBoxes boxes = walls();
+  std::ranges::copy(furniture(), std::back_inserter(boxes));
+  return boxes;
+}
 
 UncertaintyMap make_office(double resolution_m) {
   const VoxelRecord solid{.state = VoxelState::occupied, .log_odds = 3.5F};

@@ -2,12 +2,23 @@
 // the way of a robot that has seen a part of it.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/map/uncertainty_map.hpp"
 
 namespace nbvopt {
+
+/// An axis-parallel box in the map frame.
+struct SceneBox {
+  Eigen::Vector3d min_m;
+  Eigen::Vector3d max_m;
+};
+
+/// All that is solid in the office: walls, floor and ceiling first, then furniture. Boxes touch;
+/// those of walls do not overlap.
+std::vector<SceneBox> office_boxes();
 
 /// The office as ground truth, 8 x 6 x 2.6 m inside its walls, floor at z = 0: every voxel of the
 /// building is free or occupied, every voxel outside is unknown.
