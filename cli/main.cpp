@@ -9,13 +9,15 @@
 #include "cli/output.hpp"
 #include "cli/query.hpp"
 #include "cli/reproduce.hpp"
+#include "cli/simulate.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map, set_up_reproduce};
+constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map, set_up_reproduce,
+                                  set_up_simulate};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

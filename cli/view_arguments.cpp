@@ -16,6 +16,14 @@ constexpr const char* kPaperCode = "paper-code";
 
 }  // namespace
 
+void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
+  app.add_option("--robot", arguments.robot_file,
+                 "robot and sensor, a YAML file [the paper's platform]")
+      ->type_name("FILE");
+  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
+                   "most threads to use; 0: all cores. Answers do not depend on it");
+}
+
 void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
   app.add_option("--evaluator", arguments.evaluator,
                  "exact: every voxel that a ray pierces; paper-code: the paper's released code")
@@ -26,21 +34,21 @@ void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
                  "per_ray: sum over rays; per_voxel: each voxel once (Eq. 13) [as the robot says]")
       ->check(CLI::IsMember({"per_ray", "per_voxel"}))
       ->type_name("NAME");
-  app.add_option("--robot", arguments.robot_file,
-                 "robot and sensor, a YAML file [the paper's platform]")
-      ->type_name("FILE");
-  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
-                   "most threads to use; 0: all cores. Answers do not depend on it");
+  add_robot_arguments(app, arguments);
 }
 
-ThreadLimit::ThreadLimit(const ViewArguments& arguments) {
+ThreadLimit::ThreadLimit(const RobotArguments& arguments) {
   if (arguments.threads <= 0) return;
   limit_.emplace(tbb::global_control::max_allowed_parallelism,
                  static_cast<std::size_t>(arguments.threads));
 }
 
+Robot make_robot(const RobotArguments& arguments) {
+  return arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+}
+
 Robot make_robot(const ViewArguments& arguments) {
-  Robot robot = arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+  Robot robot = make_robot(static_cast<const RobotArguments&>(arguments));
   if (arguments.evaluator == kPaperCode) robot.sensor = paper_code_sensor(robot.sensor);
   return robot;
 }

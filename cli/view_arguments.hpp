@@ -14,25 +14,33 @@
 
 namespace nbvopt {
 
-struct ViewArguments {
-  std::string evaluator = "exact";
-  std::string counting;    ///< empty: as the robot says
+/// What every command that has a robot asks for.
+struct RobotArguments {
   std::string robot_file;  ///< empty: the paper's platform
   std::int64_t threads = 0;
 };
 
+struct ViewArguments : RobotArguments {
+  std::string evaluator = "exact";
+  std::string counting;  ///< empty: as the robot says
+};
+
+void add_robot_arguments(CLI::App& app, RobotArguments& arguments);
 void add_view_arguments(CLI::App& app, ViewArguments& arguments);
 
 /// Holds the process to the threads that were asked for, while it lives.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(const ViewArguments& arguments);
+  explicit ThreadLimit(const RobotArguments& arguments);
 
  private:
   std::optional<tbb::global_control> limit_;  ///< none: all cores
 };
 
-/// The robot of the file, its sensor as the evaluator wants it.
+/// The robot of the file.
+Robot make_robot(const RobotArguments& arguments);
+
+/// The same, its sensor as the evaluator wants it.
 Robot make_robot(const ViewArguments& arguments);
 
 /// Sets the counting that was asked for, if any: the command line wins over files.
