@@ -27,8 +27,8 @@ std::vector<std::size_t> units_to_run(const std::vector<Unit>& units) {
   std::vector<bool> is_awaited(units.size());
   std::vector<std::size_t> to_run;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    // A trajectory that is made again need not be the one that an episode was run on.
-    is_awaited[i] = !is_done(units, i) || (units[i].episode && is_awaited[units[i].exploration]);
+    // A trajectory that is made again need not be the one that the episode was run on.
+    is_awaited[i] = !is_done(units[i]) || (units[i].episode && is_awaited[units[i].exploration]);
     if (is_awaited[i]) to_run.push_back(i);
   }
   return to_run;
@@ -98,7 +98,7 @@ class Failures {
 
 Failures run_units(const ReproduceOptions& options, const std::vector<Unit>& units) {
   const std::vector<std::size_t> to_run = units_to_run(units);
-  for (const std::size_t unit : to_run) prepare(units, unit);
+  for (const std::size_t unit : to_run) prepare(units[unit]);
   const std::vector<Job> jobs = jobs_of(units, to_run, options.program);
   Failures failures;
   Progress progress("reproduce", static_cast<double>(jobs.size()));
@@ -108,7 +108,7 @@ Failures run_units(const ReproduceOptions& options, const std::vector<Unit>& uni
     if (result.status == JobStatus::failed) {
       progress.finish();
       failures.report(unit, result.exit_code, result.message);
-    } else if (!is_done(units, to_run[job])) {
+    } else if (!is_done(unit)) {
       progress.finish();
       failures.report(unit, static_cast<int>(ExitCode::internal_error),
                       "it ended well, but left no whole summary");
@@ -124,7 +124,7 @@ Failures run_units(const ReproduceOptions& options, const std::vector<Unit>& uni
 std::vector<UnitResult> read_results(const std::vector<Unit>& units) {
   std::vector<UnitResult> results(units.size());
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!is_done(units, i)) continue;
+    if (!is_done(units[i])) continue;
     if (units[i].episode) {
       results[i].episode = read_episode_summary(units[i].summary);
     } else {

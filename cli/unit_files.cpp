@@ -19,21 +19,15 @@ fs::path beside_summary(const Unit& unit, const std::string& extension) {
 
 fs::path command_file(const Unit& unit) { return beside_summary(unit, ".command"); }
 
-/// The command lines that the unit's files come from: a changed exploration changes its episodes.
-std::string provenance(std::span<const Unit> units, std::size_t index) {
-  const Unit& unit = units[index];
-  const std::string own = command_line(unit) + '\n';
-  return unit.episode ? command_line(units[unit.exploration]) + '\n' + own : own;
-}
+std::string command_text(const Unit& unit) { return command_line(unit) + '\n'; }
 
 }  // namespace
 
 fs::path log_file(const Unit& unit) { return beside_summary(unit, ".log"); }
 
-bool is_done(std::span<const Unit> units, std::size_t index) {
-  const Unit& unit = units[index];
+bool is_done(const Unit& unit) {
   try {
-    if (read_text_file(command_file(unit)) != provenance(units, index)) return false;
+    if (read_text_file(command_file(unit)) != command_text(unit)) return false;
     if (unit.episode) {
       read_episode_summary(unit.summary);
     } else {
@@ -46,12 +40,11 @@ bool is_done(std::span<const Unit> units, std::size_t index) {
   }
 }
 
-void prepare(std::span<const Unit> units, std::size_t index) {
-  const Unit& unit = units[index];
+void prepare(const Unit& unit) {
   std::error_code ignored;
   fs::remove(unit.summary, ignored);  // first, or it would pass for the new command line's
   if (!unit.episode) fs::remove(unit.trajectory, ignored);
-  write_file_atomically(command_file(unit), provenance(units, index));
+  write_file_atomically(command_file(unit), command_text(unit));
 }
 
 }  // namespace nbvopt

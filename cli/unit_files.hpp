@@ -1,9 +1,7 @@
 // Which units are done: the files by which a reproduction goes on where it was stopped.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <span>
 
 #include "cli/paper_experiment.hpp"
 
@@ -12,12 +10,11 @@ namespace nbvopt {
 /// Where a unit's standard error is kept.
 std::filesystem::path log_file(const Unit& unit);
 
-/// Whether the unit's files are whole and were made by its command line; those of an episode, on a
-/// trajectory that its exploration's command line made.
-bool is_done(std::span<const Unit> units, std::size_t index);
+/// Whether the unit's files are whole and were made by its command line.
+bool is_done(const Unit& unit);
 
 /// Removes what an earlier run left of the unit and notes its command line: to be called before it
 /// is run. Throws InputError when that cannot be written.
-void prepare(std::span<const Unit> units, std::size_t index);
+void prepare(const Unit& unit);
 
 }  // namespace nbvopt

@@ -167,6 +167,14 @@ TEST_F(Reproduce, AChangedCommandRunsAgainWhatItChanges) {
   EXPECT_TRUE(run(longer).empty());
 }
 
+TEST_F(Reproduce, WhatAnotherCommandMadeIsNotTakenForAFailedUnit) {
+  run(options(fake_simulate()));
+  ReproduceOptions failing = options(fake_simulate("case $name in *-auto-0.5) exit 3 ;; esac"));
+  failing.experiment.seed = 7;
+  EXPECT_EQ(run(failing).size(), 11U);
+  EXPECT_THAT(out, HasSubstr("| 2D+auto (t=0.5) | missing |"));
+}
+
 TEST_F(Reproduce, ALostTrajectoryIsMadeAgainWithItsEpisodes) {
   const std::string program = fake_simulate();
   run(options(program));
