@@ -9,7 +9,7 @@ namespace {
 
 /// How far ahead on its path the base aims: far enough to round corners, and so near that it keeps
 /// to the path within half a cell or so.
-constexpr double kLookAhead_m = 0.2;
+constexpr double kLookAhead_m = 0.1;
 /// The part of the path on which the base looks for itself.
 constexpr double kSearchAhead_m = 0.5;
 constexpr double kArrival_m = 0.03;
@@ -17,11 +17,12 @@ constexpr double kArrival_m = 0.03;
 }  // namespace
 
 double braking_speed(double distance_m, double acceleration_m_s2, double time_step_s) {
-  // A speed v falls by a dt a step and ends after v^2 / (2 a) + v dt / 2, the last step apart.
-  const double half_step = 0.5 * acceleration_m_s2 * time_step_s;
-  return std::min(
-      std::sqrt(half_step * half_step + 2.0 * acceleration_m_s2 * distance_m) - half_step,
-      distance_m / time_step_s);
+  // From speed v, n steps that are each slower by a dt cover n v dt - a dt^2 n (n - 1) / 2.
+  const double slowdown_m_s = acceleration_m_s2 * time_step_s;
+  const double steps =
+      std::ceil(std::sqrt(0.25 + 2.0 * distance_m / (slowdown_m_s * time_step_s)) - 0.5);
+  if (steps < 1.0) return 0.0;
+  return distance_m / (steps * time_step_s) + 0.5 * slowdown_m_s * (steps - 1.0);
 }
 
 BaseMotion::BaseMotion(const BaseOptions& options, const Eigen::Vector2d& position_map_m,

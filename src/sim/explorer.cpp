@@ -21,7 +21,8 @@ class Explorer {
   Explorer(const Scene& scene, const Transform& T_map_base, const ExplorationOptions& options)
       : robot_(scene, T_map_base, options),
         costs_(robot_.drive_costs(/*through_unknown=*/false)),
-        trees_(robot_.position_map_m(), options.seed) {}
+        trees_(robot_.position_map_m(), options.seed),
+        mapping_range_m_(options.mapping_range_m) {}
 
   Exploration run() {
     ExplorationStatus status = ExplorationStatus::time_limit;
@@ -40,7 +41,7 @@ class Explorer {
 
  private:
   void find_frontiers() {
-    frontiers_.update(robot_.grid());
+    frontiers_.update(robot_.grid(), robot_.position_map_m(), mapping_range_m_);
     frontiers_.add(robot_.grid(), trees_.grow(robot_.grid(), robot_.position_map_m()));
   }
 
@@ -82,6 +83,7 @@ class Explorer {
   DriveCosts costs_;
   FrontierTrees trees_;
   FrontierFilter frontiers_;
+  double mapping_range_m_;
   std::optional<Eigen::Vector2d> goal_frontier_map_m_;
   int idle_scans_ = 0;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace nbvopt {
@@ -11,7 +10,7 @@ namespace {
 /// One frontier stands for all within this distance.
 constexpr double kNeighbourhood_m = 0.5;
 /// Less unknown area than this is not worth a way: gaps between beams, the shadow of a chair's leg.
-constexpr double kUnknownMin_m2 = 0.1;
+constexpr double kUnknownMin_m2 = 0.2;
 
 bool is_near(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& position) {
   return std::ranges::any_of(points, [&](const Eigen::Vector2d& point) {
@@ -23,11 +22,10 @@ bool is_near(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& pos
 
 double unknown_area_m2(const OccupancyGrid& grid, const Eigen::Vector2d& position_map_m) {
   static const std::array<Cell, 4> neighbours{Cell(1, 0), Cell(0, 1), Cell(-1, 0), Cell(0, -1)};
-  const int radius = static_cast<int>(std::ceil(kInformationRadius_m / grid.cell_m()));
-  const double radius_cells = kInformationRadius_m / grid.cell_m();
+  const int radius = static_cast<int>(kInformationRadius_m / grid.cell_m());
   const int width = 2 * radius + 1;
-  std::vector<bool> is_seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
-  const auto seen = [&](const Cell& offset) {
+  std::vector<char> is_seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
+  const auto seen = [&](const Cell& offset) -> char& {
     return is_seen[static_cast<std::size_t>((offset.y() + radius) * width + offset.x() + radius)];
   };
   const Cell centre = grid.cell_at(position_map_m);
@@ -40,7 +38,7 @@ double unknown_area_m2(const OccupancyGrid& grid, const Eigen::Vector2d& positio
     if (grid.state(centre + offset) == CellState::unknown) ++unknown;
     for (const Cell& neighbour : neighbours) {
       const Cell next = offset + neighbour;
-      if (next.cast<double>().norm() > radius_cells || seen(next)) continue;
+      if (next.squaredNorm() > radius * radius || seen(next)) continue;
       seen(next) = true;
       if (grid.state(centre + next) != CellState::occupied) front.push_back(next);
     }
@@ -59,8 +57,11 @@ void FrontierFilter::add(const OccupancyGrid& grid, std::span<const Eigen::Vecto
   }
 }
 
-void FrontierFilter::update(const OccupancyGrid& grid) {
+void FrontierFilter::update(const OccupancyGrid& grid, const Eigen::Vector2d& robot_map_m,
+                            double scan_range_m) {
   for (Frontier& frontier : frontiers_) {
+    const double distance_m = (frontier.position_map_m - robot_map_m).norm();
+    if (distance_m > scan_range_m + kInformationRadius_m) continue;
     frontier.unknown_m2 = unknown_area_m2(grid, frontier.position_map_m);
   }
   std::erase_if(frontiers_,

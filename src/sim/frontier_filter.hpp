@@ -32,8 +32,9 @@ class FrontierFilter {
   /// Takes the points that are worth it, not yet stood for and not given up.
   void add(const OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m);
 
-  /// Counts anew what is unknown, and drops the frontiers where little is.
-  void update(const OccupancyGrid& grid);
+  /// Counts anew what is unknown where a scan can have changed it, and drops the frontiers where
+  /// little is left.
+  void update(const OccupancyGrid& grid, const Eigen::Vector2d& robot_map_m, double scan_range_m);
 
   bool contains(const Eigen::Vector2d& position_map_m) const;
 

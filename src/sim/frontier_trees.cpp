@@ -99,9 +99,10 @@ std::vector<Eigen::Vector2d> FrontierTrees::grow(const OccupancyGrid& grid,
 }
 
 Eigen::Vector2d FrontierTrees::sample(const OccupancyGrid& grid) {
-  const Eigen::Vector2d min_map_m = grid.bounds().min().cast<double>() * grid.cell_m();
-  const Eigen::Vector2d size_m =
-      (grid.bounds().sizes() + Cell::Ones()).cast<double>() * grid.cell_m();
+  // An edge beyond what is known, since the unknown starts there.
+  const Eigen::Vector2d margin_m = Eigen::Vector2d::Constant(kEdge_m);
+  const Eigen::Vector2d min_map_m = grid.centre_map_m(grid.bounds().min()) - margin_m;
+  const Eigen::Vector2d size_m = grid.centre_map_m(grid.bounds().max()) + margin_m - min_map_m;
   const double x = uniform(random_);
   const double y = uniform(random_);
   return min_map_m + Eigen::Vector2d(x * size_m.x(), y * size_m.y());

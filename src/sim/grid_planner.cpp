@@ -24,10 +24,6 @@ constexpr std::array<Step, 8> kSteps{{{1, 0, 1.0},
                                       {1, -1, std::numbers::sqrt2}}};
 constexpr int kStraightSteps = 4;
 
-/// A straight piece may cost this much more than the steps that it replaces: fewer corners are
-/// worth it.
-constexpr double kStraightBonus = 1.02;
-
 Cell offset(int step) {
   const Step& s = kSteps[static_cast<std::size_t>(step)];
   return {s.x, s.y};
@@ -121,11 +117,14 @@ std::optional<Path> GridPlanner::path(const Eigen::Vector2d& goal_map_m) {
 
 std::vector<Eigen::Vector2d> GridPlanner::pull_straight(const std::vector<Eigen::Vector2d>& points,
                                                         const std::vector<double>& costs_m) const {
+  // A straight piece may cost a cell more than the steps that it replaces: fewer corners are worth
+  // it, and start and goal are not in the middle of their cells.
+  const double bonus_m = costs_.grid().cell_m();
   std::vector<Eigen::Vector2d> corners{points.front()};
   for (std::size_t from = 0; from + 1 < points.size();) {
     std::size_t to = from + 1;
     while (to + 1 < points.size() && costs_.line_cost_m(points[from], points[to + 1]) <=
-                                         kStraightBonus * (costs_m[to + 1] - costs_m[from])) {
+                                         costs_m[to + 1] - costs_m[from] + bonus_m) {
       ++to;
     }
     corners.push_back(points[to]);
