@@ -162,10 +162,10 @@ void append_predictions(std::vector<PredictionRow>& rows, const std::string& lab
     row.motion_time_s = setting.motion_time_s;
     for (const ExperimentEnvironment& environment : environments) {
       for (const auto& [start, episode] : index.episodes(environment, setting)) {
-        row.sums += episode.prediction;
+        row.record += episode.prediction;
       }
     }
-    if (row.sums.steps > 0.0) rows.push_back(std::move(row));
+    if (row.record.steps > 0) rows.push_back(std::move(row));
   }
 }
 

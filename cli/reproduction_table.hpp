@@ -46,7 +46,7 @@ struct ResultRow : RowLabel {
 
 /// Gain predicted and realised, pooled over the starts of one environment or over all.
 struct PredictionRow : RowLabel {
-  PredictionSums sums;
+  PredictionRecord record;
 };
 
 struct ReproductionTable {

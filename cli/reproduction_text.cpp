@@ -75,15 +75,15 @@ constexpr Column<ResultRow> kResultColumns[] = {
 
 constexpr Column<PredictionRow> kPredictionColumns[] = {
     {"steps", "steps", Style::whole,
-     [](const PredictionRow& row) { return Figure(row.sums.steps); }},
+     [](const PredictionRow& row) { return Figure(row.record.steps); }},
     {"predicted_sum", nullptr, Style::whole,
-     [](const PredictionRow& row) { return Figure(row.sums.x); }},
+     [](const PredictionRow& row) { return Figure(row.record.sum_x); }},
     {"realised_sum", nullptr, Style::whole,
-     [](const PredictionRow& row) { return Figure(row.sums.y); }},
+     [](const PredictionRow& row) { return Figure(row.record.sum_y); }},
     {"correlation", "correlation", Style::ratio,
-     [](const PredictionRow& row) { return finite(row.sums.correlation()); }},
+     [](const PredictionRow& row) { return finite(row.record.correlation()); }},
     {"bias_percent", "bias", Style::percent,
-     [](const PredictionRow& row) { return finite(100.0 * row.sums.bias()); }},
+     [](const PredictionRow& row) { return finite(100.0 * row.record.bias()); }},
 };
 
 /// 1234567 as "1,234,567".

@@ -1,7 +1,6 @@
 #include "cli/unit_summary.hpp"
 
-#include <cmath>
-#include <limits>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/text_file.hpp"
@@ -25,22 +24,6 @@ auto read_summary(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-PredictionSums& PredictionSums::operator+=(const PredictionSums& other) {
-  steps += other.steps;
-  x += other.x;
-  y += other.y;
-  xx += other.xx;
-  yy += other.yy;
-  xy += other.xy;
-  return *this;
-}
-
-double PredictionSums::correlation() const {
-  const double variances = (steps * xx - x * x) * (steps * yy - y * y);
-  if (!(variances > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  return (steps * xy - x * y) / std::sqrt(variances);
-}
-
 EpisodeSummary read_episode_summary(const std::filesystem::path& path) {
   return read_summary(path, [](const json& fields) {
     const json& prediction = fields.at("prediction");
@@ -51,12 +34,12 @@ EpisodeSummary read_episode_summary(const std::filesystem::path& path) {
         .information = fields.at("information").get<double>(),
         .voxels_as_paper_counts = fields.at("voxels_as_paper_counts").get<double>(),
         .information_as_paper_counts = fields.at("information_as_paper_counts").get<double>(),
-        .prediction = {.steps = prediction.at("steps").get<double>(),
-                       .x = pooled.at("sum_x").get<double>(),
-                       .y = pooled.at("sum_y").get<double>(),
-                       .xx = pooled.at("sum_xx").get<double>(),
-                       .yy = pooled.at("sum_yy").get<double>(),
-                       .xy = pooled.at("sum_xy").get<double>()}};
+        .prediction = {.steps = prediction.at("steps").get<std::uint64_t>(),
+                       .sum_x = pooled.at("sum_x").get<double>(),
+                       .sum_y = pooled.at("sum_y").get<double>(),
+                       .sum_xx = pooled.at("sum_xx").get<double>(),
+                       .sum_yy = pooled.at("sum_yy").get<double>(),
+                       .sum_xy = pooled.at("sum_xy").get<double>()}};
   });
 }
 

@@ -4,23 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "nbvopt/sim/prediction_record.hpp"
+
 namespace nbvopt {
-
-/// Gains predicted (x) and realised (y), summed over steps; sums of several episodes add up.
-struct PredictionSums {
-  double steps = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double yy = 0.0;
-  double xy = 0.0;
-
-  PredictionSums& operator+=(const PredictionSums& other);
-  /// Pearson's; NaN when either gain does not vary.
-  double correlation() const;
-  /// How much more was predicted than realised, as a share of what was realised.
-  double bias() const { return x / y - 1.0; }
-};
 
 struct EpisodeSummary {
   double duration_s = 0.0;
@@ -28,7 +14,7 @@ struct EpisodeSummary {
   double information = 0.0;
   double voxels_as_paper_counts = 0.0;
   double information_as_paper_counts = 0.0;
-  PredictionSums prediction;
+  PredictionRecord prediction;
 };
 
 struct ExplorationSummary {

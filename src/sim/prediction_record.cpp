@@ -19,6 +19,16 @@ void PredictionRecord::add(double predicted, double realised) {
   sum_xy += predicted * realised;
 }
 
+PredictionRecord& PredictionRecord::operator+=(const PredictionRecord& other) {
+  steps += other.steps;
+  sum_x += other.sum_x;
+  sum_y += other.sum_y;
+  sum_xx += other.sum_xx;
+  sum_yy += other.sum_yy;
+  sum_xy += other.sum_xy;
+  return *this;
+}
+
 double PredictionRecord::correlation() const {
   const auto n = static_cast<double>(steps);
   const double variance_x = n * sum_xx - sum_x * sum_x;

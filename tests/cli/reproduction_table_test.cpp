@@ -163,13 +163,13 @@ TEST_F(Reproduction, PredictionsArePooledOverStartsAndEnvironments) {
   const PredictionRow& all = made.predictions[0];
   EXPECT_EQ(all.environment, "all");
   EXPECT_EQ(all.test, "2D+auto");
-  EXPECT_EQ(all.sums.steps, 3.0);
-  EXPECT_NEAR(all.sums.correlation(), 0.5, 1e-12);
-  EXPECT_NEAR(all.sums.bias(), 0.0, 1e-12);
+  EXPECT_EQ(all.record.steps, 3U);
+  EXPECT_NEAR(all.record.correlation(), 0.5, 1e-12);
+  EXPECT_NEAR(all.record.bias(), 0.0, 1e-12);
   EXPECT_EQ(made.predictions[1].environment, "apartment");
-  EXPECT_NEAR(made.predictions[1].sums.correlation(), 1.0, 1e-12);
-  EXPECT_NEAR(made.predictions[1].sums.bias(), -0.25, 1e-12);
-  EXPECT_TRUE(std::isnan(made.predictions[2].sums.correlation())) << "of a single step";
+  EXPECT_NEAR(made.predictions[1].record.correlation(), 1.0, 1e-12);
+  EXPECT_NEAR(made.predictions[1].record.bias(), -0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(made.predictions[2].record.correlation())) << "of a single step";
 }
 
 TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {

@@ -5,8 +5,7 @@
 
 namespace nbvopt {
 
-/// Sums over pairs of a predicted (x) and a realised (y) gain. Records of several episodes are
-/// pooled by adding their sums.
+/// Sums over pairs of a predicted (x) and a realised (y) gain.
 struct PredictionRecord {
   std::uint64_t steps = 0;
   double sum_x = 0.0;
@@ -16,6 +15,9 @@ struct PredictionRecord {
   double sum_xy = 0.0;
 
   void add(double predicted, double realised);
+
+  /// Pools the steps of another episode with these.
+  PredictionRecord& operator+=(const PredictionRecord& other);
 
   /// Pearson's; NaN where predictions or realised gains do not vary, or there are less than two.
   double correlation() const;
