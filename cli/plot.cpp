@@ -10,7 +10,6 @@
 #include "cli/plot_map.hpp"
 #include "cli/plot_style.hpp"
 #include "core/atomic_file.hpp"
-#include "nbvopt/map/colour_ramp.hpp"
 
 namespace nbvopt {
 namespace {
@@ -87,20 +86,6 @@ void draw_swatch(Canvas& canvas, double x, double y, Colour colour, const std::s
   canvas.text({x + 32.0, y}, label, style::body());
 }
 
-void draw_ramp(Canvas& canvas, double x, double y) {
-  constexpr int kSteps = 64;
-  constexpr double kWidth = 194.0;
-  Raster ramp{kSteps, 1, {}};
-  for (int i = 0; i < kSteps; ++i) {
-    const auto [red, green, blue] = uncertainty_colour(i / (kSteps - 1.0));
-    ramp.cells.push_back({red / 255.0, green / 255.0, blue / 255.0});
-  }
-  canvas.draw(ramp, {x, y - 10.0, kWidth, 12.0});
-  canvas.text({x, y + 15.0}, "0 well seen", style::note());
-  canvas.text({x + kWidth, y + 15.0}, "1 not yet", style::note(Anchor::right));
-  canvas.text({x + kWidth + 8.0, y}, "occupied, by uncertainty u", style::body());
-}
-
 void draw_legend(Canvas& canvas, const PlotInput& input) {
   constexpr double kTop = 604.0;
   constexpr double kSecondColumn = kRight + 226.0;
@@ -111,7 +96,7 @@ void draw_legend(Canvas& canvas, const PlotInput& input) {
   draw_swatch(canvas, kRight, kTop + 24.0, style::kFree, "free");
   draw_swatch(canvas, kSecondColumn, kTop + 24.0, style::kUnknown, "unknown");
   if (input.grid.carries_uncertainty()) {
-    draw_ramp(canvas, kRight, kTop + 48.0);
+    draw_uncertainty_ramp(canvas, {kRight, kTop + 48.0});
   } else {
     draw_swatch(canvas, kRight, kTop + 48.0, style::kOccupied, "occupied");
   }

@@ -3,16 +3,9 @@
 
 #include "cli/canvas.hpp"
 #include "cli/plot.hpp"
+#include "cli/top_view.hpp"
 
 namespace nbvopt {
-
-/// The heights that the top view shows, in the map frame: a column is occupied when any voxel
-/// between them is. Otherwise it is what it is at the camera's height.
-struct MapSlice {
-  double z_min_m = 0.0;
-  double z_camera_m = 0.0;
-  double z_max_m = 0.0;
-};
 
 /// From just above the ground to just above the highest camera.
 MapSlice map_slice(const PlotInput& input);

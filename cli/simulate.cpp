@@ -1,6 +1,7 @@
 #include "cli/simulate.hpp"
 
 #include <CLI/Option.hpp>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "cli/arguments.hpp"
 #include "cli/episode_output.hpp"
 #include "cli/output.hpp"
+#include "cli/plot_episode.hpp"
 #include "cli/progress.hpp"
 #include "cli/view_arguments.hpp"
 #include "cli/world_arguments.hpp"
@@ -43,6 +45,7 @@ struct SimulateOptions {
   std::string map_out;
   std::string metrics_out;
   std::string summary_out;
+  std::string plot_out;
 };
 
 void check(const SimulateOptions& options) {
@@ -56,8 +59,8 @@ void check(const SimulateOptions& options) {
     throw UsageError("--explore-only makes a trajectory: leave --trajectory out");
   }
   // An episode whose outcome could not be kept would be in vain.
-  for (const std::string& file :
-       {options.trajectory_out, options.map_out, options.metrics_out, options.summary_out}) {
+  for (const std::string& file : {options.trajectory_out, options.map_out, options.metrics_out,
+                                  options.summary_out, options.plot_out}) {
     if (!file.empty()) require_writable(file);
   }
 }
@@ -118,6 +121,14 @@ void tell_drive(const SimulateOptions& options, const Drive& drive) {
              format_number(duration_s) + " s\n");
 }
 
+std::string subtitle(const EpisodeReport& report) {
+  return std::filesystem::path(report.world).filename().string() + ", mode " + report.mode +
+         ", t = " + format_number(report.motion_time_s) +
+         " s: " + std::to_string(report.summary.captures) + " captures, " +
+         std::to_string(report.summary.voxels) + " voxels with u < 1, information " +
+         std::to_string(std::llround(report.summary.information));
+}
+
 /// Runs the episode; whatever ends it, the map so far is written.
 EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
                            const Trajectory& trajectory) {
@@ -135,6 +146,7 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
   std::optional<Progress> progress;
   if (!options.is_silent) progress.emplace("simulating", trajectory.duration_s());
   StepTimer timer;
+  std::vector<Capture> captures;
   const Stopwatch stopwatch;
   EpisodeReport report;
   try {
@@ -142,6 +154,7 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
         run_episode(scene, trajectory, *mode, episode, map, [&](const Capture& capture) {
           timer.add(capture);
           if (log) log->add(capture);
+          if (!options.plot_out.empty()) captures.push_back(capture);
           if (progress) progress->update(capture.time_s);
         });
   } catch (const InputError&) {
@@ -156,6 +169,9 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
   report.paper_counts = map.paper_counts();
   report.times = timer.mean();
   report.elapsed_ms = stopwatch.elapsed_ms();
+  if (!options.plot_out.empty()) {
+    write_episode_plot({map, episode.robot, captures, subtitle(report)}, options.plot_out);
+  }
   return report;
 }
 
@@ -236,6 +252,7 @@ void add_outputs(CLI::App& simulate, SimulateOptions& options) {
   add_file("--metrics", options.metrics_out, "FILE.jsonl", "a JSON object a capture, as they come");
   add_file("--trajectory-out", options.trajectory_out, "FILE.csv", "the drive, to be replayed");
   add_file("--summary", options.summary_out, "FILE.json", "the answer as JSON, written last");
+  add_file("--plot", options.plot_out, "OUT.png", "the map from above with the drive on it");
   simulate.add_flag("--json", options.json, "print the answer as JSON instead of text");
   simulate.add_flag("--no-progress", options.is_silent, "show no progress bar");
 }
