@@ -50,7 +50,7 @@ void BaseMotion::step(double time_s) {
     const double left_m = std::max(ahead_m.norm(), path_->length_m() - along_path_m_);
     const double turn_rad = wrap_angle(std::atan2(ahead_m.y(), ahead_m.x()) - yaw_rad_);
     const double speed_m_s =
-        std::min(options_.speed_max_m_s * std::max(0.0, std::cos(turn_rad)),
+        std::min(options_.speed_max_m_s * std::clamp(2.0 * std::cos(turn_rad), 0.0, 1.0),
                  braking_speed(left_m, options_.acceleration_max_m_s2, time_s));
     wanted_m_s = speed_m_s * ahead_m.normalized();
     wanted_rad_s = std::copysign(

@@ -107,8 +107,8 @@ TEST_F(Office, IsKnownWhereverTheBaseCanBe) {
   EXPECT_EQ(exploration.status, ExplorationStatus::complete);
   expect_sound(scene_, exploration.trajectory, {});
   const OccupancyGrid& grid = exploration.grid;
-  for (double y = 0.125; y < 8.0; y += 0.05) {
-    for (double x = 0.125; x < 10.0; x += 0.05) {
+  for (double y = 0.125; y < 8.0; y += 0.1) {
+    for (double x = 0.125; x < 10.0; x += 0.1) {
       if (is_in_closed_room({x, y})) {
         EXPECT_NE(grid.state(grid.cell_at({x, y})), CellState::free) << x << ", " << y;
       } else if (clearance_m(scene_, {0.0, x, y, 0.0, 0.0}) > 0.22 &&
