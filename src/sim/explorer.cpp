@@ -21,8 +21,7 @@ class Explorer {
   Explorer(const Scene& scene, const Transform& T_map_base, const ExplorationOptions& options)
       : robot_(scene, T_map_base, options),
         costs_(robot_.drive_costs(/*through_unknown=*/false)),
-        trees_(robot_.position_map_m(), options.seed),
-        mapping_range_m_(options.mapping_range_m) {}
+        trees_(robot_.position_map_m(), options.seed) {}
 
   Exploration run() {
     ExplorationStatus status = ExplorationStatus::time_limit;
@@ -41,12 +40,12 @@ class Explorer {
 
  private:
   void find_frontiers() {
-    frontiers_.update(robot_.grid(), robot_.position_map_m(), mapping_range_m_);
     frontiers_.add(robot_.grid(), trees_.grow(robot_.grid(), robot_.position_map_m()));
   }
 
   bool needs_goal() {
-    if (!goal_frontier_map_m_ || !frontiers_.contains(*goal_frontier_map_m_)) return true;
+    if (!goal_frontier_map_m_) return true;
+    if (!is_worth_a_way(unknown_area_m2(robot_.grid(), *goal_frontier_map_m_))) return true;
     if (robot_.has_arrived()) {
       frontiers_.give_up(*goal_frontier_map_m_);
       return true;
@@ -57,6 +56,7 @@ class Explorer {
   void choose_goal() {
     goal_frontier_map_m_.reset();
     robot_.halt();
+    frontiers_.update(robot_.grid());
     if (frontiers_.frontiers().empty()) return;
     Assignment assignment = assign_goal(costs_, frontiers_.frontiers(), robot_.position_map_m());
     for (const Eigen::Vector2d& position : assignment.unreachable_map_m) {
@@ -83,7 +83,6 @@ class Explorer {
   DriveCosts costs_;
   FrontierTrees trees_;
   FrontierFilter frontiers_;
-  double mapping_range_m_;
   std::optional<Eigen::Vector2d> goal_frontier_map_m_;
   int idle_scans_ = 0;
 };

@@ -46,6 +46,8 @@ double unknown_area_m2(const OccupancyGrid& grid, const Eigen::Vector2d& positio
   return static_cast<double>(unknown) * grid.cell_m() * grid.cell_m();
 }
 
+bool is_worth_a_way(double unknown_m2) { return unknown_m2 >= kUnknownMin_m2; }
+
 void FrontierFilter::add(const OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m) {
   for (const Eigen::Vector2d& point : points_map_m) {
     const bool is_stood_for = std::ranges::any_of(frontiers_, [&](const Frontier& frontier) {
@@ -53,24 +55,16 @@ void FrontierFilter::add(const OccupancyGrid& grid, std::span<const Eigen::Vecto
     });
     if (is_stood_for || is_near(given_up_map_m_, point) || is_near(aside_map_m_, point)) continue;
     const double unknown_m2 = unknown_area_m2(grid, point);
-    if (unknown_m2 >= kUnknownMin_m2) frontiers_.push_back({point, unknown_m2});
+    if (is_worth_a_way(unknown_m2)) frontiers_.push_back({point, unknown_m2});
   }
 }
 
-void FrontierFilter::update(const OccupancyGrid& grid, const Eigen::Vector2d& robot_map_m,
-                            double scan_range_m) {
+void FrontierFilter::update(const OccupancyGrid& grid) {
   for (Frontier& frontier : frontiers_) {
-    const double distance_m = (frontier.position_map_m - robot_map_m).norm();
-    if (distance_m > scan_range_m + kInformationRadius_m) continue;
     frontier.unknown_m2 = unknown_area_m2(grid, frontier.position_map_m);
   }
   std::erase_if(frontiers_,
-                [](const Frontier& frontier) { return frontier.unknown_m2 < kUnknownMin_m2; });
-}
-
-bool FrontierFilter::contains(const Eigen::Vector2d& position_map_m) const {
-  return std::ranges::find(frontiers_, position_map_m, &Frontier::position_map_m) !=
-         frontiers_.end();
+                [](const Frontier& frontier) { return !is_worth_a_way(frontier.unknown_m2); });
 }
 
 void FrontierFilter::give_up(const Eigen::Vector2d& position_map_m) {

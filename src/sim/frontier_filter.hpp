@@ -22,6 +22,9 @@ inline constexpr double kInformationRadius_m = 1.0;
 /// without passing an occupied one, so that what lies behind a wall does not count.
 double unknown_area_m2(const OccupancyGrid& grid, const Eigen::Vector2d& position_map_m);
 
+/// Whether enough is unknown around a free point to be worth a way.
+bool is_worth_a_way(double unknown_m2);
+
 /// Keeps few frontiers of the many that trees find. Umari and Mukhopadhyay cluster points to their
 /// means; a mean may lie in a wall, so that here the first point found stands for its
 /// neighbourhood.
@@ -32,11 +35,8 @@ class FrontierFilter {
   /// Takes the points that are worth it, not yet stood for and not given up.
   void add(const OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m);
 
-  /// Counts anew what is unknown where a scan can have changed it, and drops the frontiers where
-  /// little is left.
-  void update(const OccupancyGrid& grid, const Eigen::Vector2d& robot_map_m, double scan_range_m);
-
-  bool contains(const Eigen::Vector2d& position_map_m) const;
+  /// Counts anew what is unknown, and drops the frontiers where little is left.
+  void update(const OccupancyGrid& grid);
 
   /// Drops a frontier and refuses its neighbourhood: the robot came and saw nothing new.
   void give_up(const Eigen::Vector2d& position_map_m);
