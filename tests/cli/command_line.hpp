@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -26,6 +27,14 @@ inline nlohmann::json nbvopt_json(const std::vector<std::string>& arguments,
   const ProcessResult result = nbvopt_run(arguments, input);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+/// The objects of a file with one JSON object a line.
+inline std::vector<nlohmann::json> lines_of(const std::string& file) {
+  std::vector<nlohmann::json> objects;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) objects.push_back(nlohmann::json::parse(line));
+  return objects;
 }
 
 /// Expects a refusal: this exit code, nothing on standard output, one line on standard error that

@@ -7,13 +7,6 @@
 namespace nbvopt::test {
 namespace {
 
-std::vector<json> lines_of(const std::string& file) {
-  std::vector<json> objects;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) objects.push_back(json::parse(line));
-  return objects;
-}
-
 TEST_F(CommandLine, QueryWritesEveryEvaluation) {
   const std::string file = folder / "trace.jsonl";
   const json answer = nbvopt_json(json_query(map_file, {"--solver", "grid", "--trace", file}));
