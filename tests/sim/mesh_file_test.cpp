@@ -196,6 +196,9 @@ TEST(MeshFile, RefusesWhatIsNoMeshAndNamesTheFile) {
   const std::tuple<std::string, std::string, std::string> files[] = {
       {"truncated.dae", whole.substr(0, whole.size() / 2), "cannot be read as a mesh"},
       {"nothing.dae", collada("", no_triangle, node("", "g")), ""},
+      {"bones.dae",
+       collada("", "", "<node name='a'><node name='b'><translate>1 0 0</translate></node></node>"),
+       ""},
       {"lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", ""},
       {"empty.stl", "", "the file is empty"},
       {"noise.ply", "not a mesh at all", "cannot be read as a mesh"},
