@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <functional>
 #include <iostream>
 #include <mutex>
+#include <sdf/Exception.hh>
 #include <sdf/ParserConfig.hh>
 #include <sstream>
 #include <string>
@@ -61,9 +63,8 @@ std::string with_declaration_first(std::string xml) {
   const std::size_t comment = xml.find_first_not_of(blanks);
   const std::size_t comment_end = xml.find("-->", comment);
   const std::size_t declaration = xml.find("<?xml", comment_end);
-  if (declaration == std::string::npos ||
-      !std::string_view(xml).substr(comment).starts_with("<!--"))
-    return xml;
+  if (declaration == std::string::npos) return xml;
+  if (!std::string_view(xml).substr(comment).starts_with("<!--")) return xml;
   if (xml.find_first_not_of(blanks, comment_end + 3) != declaration) return xml;
   std::replace_if(
       xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(declaration),
@@ -174,7 +175,7 @@ sdf::Root read_sdf_document(const fs::path& path, ModelPaths& model_paths, World
   log.read(path);
   sdf::Root root;
   std::string printed;
-  {
+  try {
     const CapturedErrors captured;
     const LentFindCallback lent(IncludeFinder(path, model_paths, log));
     std::ostringstream returned;
@@ -182,6 +183,12 @@ sdf::Root read_sdf_document(const fs::path& path, ModelPaths& model_paths, World
       returned << error << '\n';
     }
     printed = captured.text() + returned.str();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": cannot be read as SDF: " + error.what());
+  } catch (const sdf::Exception& error) {
+    throw InputError(path.string() + ": cannot be read as SDF: " + error.GetErrorStr());
   }
   const std::vector<Fault> faults = faults_in(printed);
   if (root.WorldCount() == 0 && root.Model() == nullptr) {
