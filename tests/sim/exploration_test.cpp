@@ -218,20 +218,36 @@ TEST_F(Office, StaysWhereNoGoalIsGiven) {
   EXPECT_EQ(exploration.trajectory.points().size(), 1U);
 }
 
-TEST(Exploration, DoesNotWaitAtAGapForEver) {
+/// Two rooms, x from 0 to 3 and 3.1 to 6, joined by a gap.
+Scene rooms_with_gap(double width_m) {
   TriangleMesh mesh;
-  // Two rooms, the second seen through a slit of 0.2 m.
-  test::add_box(mesh, {0.0, 0.0, 0.0}, {6.0, 0.1, 2.5});
-  test::add_box(mesh, {0.0, 3.0, 0.0}, {6.0, 3.1, 2.5});
-  test::add_box(mesh, {-0.1, 0.0, 0.0}, {0.0, 3.1, 2.5});
-  test::add_box(mesh, {6.0, 0.0, 0.0}, {6.1, 3.1, 2.5});
-  test::add_box(mesh, {3.0, 0.1, 0.0}, {3.1, 1.4, 2.5});
-  test::add_box(mesh, {3.0, 1.6, 0.0}, {3.1, 3.0, 2.5});
-  const Scene scene(mesh);
+  const auto wall = [&](double x_min, double y_min, double x_max, double y_max) {
+    test::add_box(mesh, {x_min, y_min, 0.0}, {x_max, y_max, 2.5});
+  };
+  wall(0.0, 0.0, 6.0, 0.1);
+  wall(0.0, 3.0, 6.0, 3.1);
+  wall(-0.1, 0.0, 0.0, 3.1);
+  wall(6.0, 0.0, 6.1, 3.1);
+  wall(3.0, 0.1, 3.1, 1.5 - 0.5 * width_m);
+  wall(3.0, 1.5 + 0.5 * width_m, 3.1, 3.0);
+  return Scene(mesh);
+}
+
+TEST(Exploration, DoesNotWaitForEverAtAGapThatTheBaseDoesNotFitThrough) {
+  const Scene scene = rooms_with_gap(0.4);
   const Exploration exploration = explore(scene, base_pose(1.0, 1.0, 0.0, 0.0), {});
   EXPECT_EQ(exploration.status, ExplorationStatus::complete);
   EXPECT_LT(exploration.trajectory.duration_s(), 300.0);
   for (const TrajectoryPoint& point : exploration.trajectory.points()) EXPECT_LT(point.x_m, 3.0);
+  expect_sound(scene, exploration.trajectory, {});
+}
+
+TEST(Exploration, FitsThroughANarrowDoor) {
+  const Scene scene = rooms_with_gap(0.65);
+  const std::vector<Eigen::Vector2d> goals{{5.0, 0.5}};
+  const Exploration exploration = drive_to(scene, base_pose(1.0, 2.5, 0.0, 0.0), goals, {});
+  EXPECT_GT(exploration.trajectory.points().back().x_m, 4.9);
+  expect_sound(scene, exploration.trajectory, {});
 }
 
 }  // namespace

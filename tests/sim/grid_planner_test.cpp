@@ -107,6 +107,17 @@ TEST_F(GridPlannerTest, LeavesAPlaceThatIsTooNarrow) {
   EXPECT_FALSE(planner({3.0, 2.0}).path(start_m)) << "but never goes to one";
 }
 
+TEST(GridPlanner, DoesNotSlipBetweenCellsThatMeetAtACorner) {
+  OccupancyGrid grid(1.0);
+  ClearanceField field(1.0, 2.0);
+  test::mark(grid, {0.0, 0.0}, {1.5, 1.5}, CellState::free);
+  const DriveCosts costs(grid, field, {0.5, 2.0, /*through_unknown=*/false});
+  EXPECT_TRUE(GridPlanner(costs, {0.5, 0.5}, grid.bounds()).path({1.5, 1.5}));
+  field.add_occupied(test::mark(grid, {0.0, 1.0}, {0.5, 1.5}, CellState::occupied));
+  field.add_occupied(test::mark(grid, {1.0, 0.0}, {1.5, 0.5}, CellState::occupied));
+  EXPECT_FALSE(GridPlanner(costs, {0.5, 0.5}, grid.bounds()).path({1.5, 1.5}));
+}
+
 TEST_F(GridPlannerTest, CostsDoNotDependOnTheOrderOfQuestions) {
   wall({3.0, 0.0}, {3.0, 2.5});
   const Cell near = grid_.cell_at({2.0, 1.0});

@@ -30,7 +30,7 @@ struct ExplorationOptions {
   double mapping_range_m = 4.0;  ///< beams are cropped here, as in the paper
   double cell_m = 0.05;          ///< of the occupancy grid
   std::uint64_t seed = 1;        ///< of the trees
-  double duration_max_s = 3600.0;
+  double duration_max_s = 7200.0;
   std::function<void(double time_s)> progress;  ///< called now and then; may throw to end it
 };
 
