@@ -3,6 +3,7 @@
 PRESET ?= release
 BUILD := build/$(PRESET)
 NBVOPT := $(BUILD)/cli/nbvopt
+DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 0.5
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
@@ -25,12 +26,14 @@ build: packages  ## configure and build everything
 	@cmake --preset $(PRESET) --log-level=WARNING
 	@cmake --build --preset $(PRESET)
 
-demo: packages  ## find the next best view on a map that ships; its answer and picture land in out/
+demo: packages  ## find a next best view, then map a small office in simulation; all lands in out/
 	@cmake --preset $(PRESET) --log-level=WARNING
 	@cmake --build --preset $(PRESET) --target nbvopt_cli
 	@mkdir -p out
 	@$(NBVOPT) query datasets/office_partial.ot $(DEMO_QUERY) --json-out out/answer.json --plot out/view.png
 	@echo "The answer is in out/answer.json, the picture in out/view.png"
+	@$(NBVOPT) simulate datasets/office.world $(DEMO_EPISODE) --map-out out/office.ot --metrics out/office.jsonl --plot out/episode.png
+	@echo "The map is in out/office.ot, its growth in out/office.jsonl, the picture in out/episode.png"
 
 test: build  ## run all tests
 	@ctest --preset $(PRESET) --output-junit junit.xml

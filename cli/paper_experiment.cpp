@@ -12,9 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes the place of a start that is still to be chosen.
-constexpr StartPose kToBeChosen{0.0, 0.0, 0.0};
-
 constexpr EpisodeSetting kSettings[] = {
     {"static", 0.2}, {"grid", 0.2}, {"auto", 0.2},                                    //
     {"static", 0.5}, {"grid", 0.5}, {"grid-3", 0.5}, {"auto", 0.5}, {"random", 0.5},  //
@@ -133,27 +130,27 @@ std::span<const ExperimentEnvironment> experiment_environments() {
        "simple house",
        "simple_house/worlds/house_with_door.world",
        4.0,
-       {kToBeChosen, kToBeChosen, kToBeChosen}},
+       {{-3.0, 1.0, 0.0}, {-6.5, -3.0, 0.0}, {5.5, -3.0, 0.0}}},
       {"apartment",
        "apartment",
        "apartment/worlds/small_house.world",
        4.0,
-       {kToBeChosen, kToBeChosen, kToBeChosen}},
+       {{0.0, 0.0, 0.0}, {6.0, -3.0, 0.0}, {-7.0, 0.0, 0.0}}},
       {"cafe",
        "cafe",
        "cafe/worlds/cafe_static_closed.world",
        4.0,
-       {kToBeChosen, kToBeChosen, kToBeChosen}},
+       {{0.0, 0.0, 0.0}, {0.0, 9.0, 0.0}, {1.0, -9.0, 0.0}}},
       {"warehouse",
        "warehouse",
        "warehouse/worlds/small_warehouse.world",
        4.0,
-       {kToBeChosen, kToBeChosen, kToBeChosen}},
+       {{0.0, 0.0, 0.0}, {4.5, -8.0, 0.0}, {-4.0, 8.0, 0.0}}},
       {"willowgarage",
        "willowgarage",
        "willowgarage/worlds/willowgarage_closed.world",
        10.0,
-       {kToBeChosen}},
+       {{0.0, 0.0, 0.0}}},
   };
   return kEnvironments;
 }
