@@ -10,7 +10,7 @@ namespace {
 /// One frontier stands for all within this distance.
 constexpr double kNeighbourhood_m = 0.5;
 /// Less unknown area than this is not worth a way: gaps between beams, the shadow of a chair's leg.
-constexpr double kUnknownMin_m2 = 0.2;
+constexpr double kLeastUnknown_square_m = 0.2;
 
 bool is_near(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& position) {
   return std::ranges::any_of(points, [&](const Eigen::Vector2d& point) {
@@ -46,7 +46,7 @@ double unknown_area_m2(const OccupancyGrid& grid, const Eigen::Vector2d& positio
   return static_cast<double>(unknown) * grid.cell_m() * grid.cell_m();
 }
 
-bool is_worth_a_way(double unknown_m2) { return unknown_m2 >= kUnknownMin_m2; }
+bool is_worth_a_way(double unknown_m2) { return unknown_m2 >= kLeastUnknown_square_m; }
 
 void FrontierFilter::add(const OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m) {
   for (const Eigen::Vector2d& point : points_map_m) {

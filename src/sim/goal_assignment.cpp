@@ -9,7 +9,8 @@ namespace nbvopt {
 namespace {
 
 // The names and values are those of Umari and Mukhopadhyay's published assigner.
-constexpr double kInformationMultiplier_m_m2 = 3.0;  ///< metres of way that 1 m^2 is worth
+constexpr double kInformationMultiplier_m_per_square_m =
+    3.0;  ///< metres of way that 1 m^2 is worth
 constexpr double kHysteresisRadius_m = 3.0;
 constexpr double kHysteresisGain = 2.0;
 
@@ -28,7 +29,7 @@ bool is_in_sight(const OccupancyGrid& grid, const Eigen::Vector2d& from_map_m,
 /// What a frontier is worth before the way to it is paid for.
 double worth_m(const Frontier& frontier, double distance_m) {
   const double gain = distance_m <= kHysteresisRadius_m ? kHysteresisGain : 1.0;
-  return kInformationMultiplier_m_m2 * gain * frontier.unknown_m2;
+  return kInformationMultiplier_m_per_square_m * gain * frontier.unknown_m2;
 }
 
 }  // namespace

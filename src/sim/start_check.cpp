@@ -15,7 +15,7 @@ namespace {
 
 /// A mesh does not say what is solid. But a wardrobe, a crate or a bed holds less air than this,
 /// and a room that is worth exploring more.
-constexpr double kAirMin_m3 = 4.0;
+constexpr double kLeastAir_cubic_m = 4.0;
 constexpr int kAirRays = 512;
 
 /// The air that is seen from the lidar in the upper half space; +inf under the open sky.
@@ -58,7 +58,7 @@ void require_free_start(const Scene& scene, const Transform& T_map_base,
     refuse("is nearer to a surface than the base's radius of " +
            format_number(options.base.radius_m) + " m, start where there is room");
   }
-  if (air_above_m3(scene, T_map_base, options.lidar) < kAirMin_m3) {
+  if (air_above_m3(scene, T_map_base, options.lidar) < kLeastAir_cubic_m) {
     refuse("is inside a wall or a piece of furniture, start where there is room");
   }
 }
