@@ -26,6 +26,7 @@ struct ExperimentEnvironment {
   std::string_view paper_name;  ///< PaperEnvironment::name
   std::string_view world_file;  ///< below the folder of the worlds
   double lidar_range_m;         ///< where beams are cropped for the map in the plane
+  double duration_max_s;        ///< explorations end then
   std::vector<StartPose> starts;
 };
 
@@ -51,7 +52,7 @@ struct ExperimentOptions {
   std::vector<std::string> environments;  ///< by name; empty: all
   std::int64_t starts = 3;                ///< the first so many of each environment
   std::int64_t seed = 1;
-  std::optional<double> duration_max_s;  ///< of explorations; none: as simulate has it
+  std::optional<double> duration_max_s;  ///< of explorations; none: as the environment has it
 };
 
 /// One run of `nbvopt simulate`: an exploration, which records a trajectory, or an episode on it.

@@ -39,7 +39,7 @@ void set_up_reproduce(CLI::App& app) {
   add_whole_number(*command, "--seed", experiment.seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of explorations and searches");
   add_number(*command, "--duration-max", experiment.duration_max_s, "SECONDS",
-             "end explorations after this, for short trials [as simulate has it]");
+             "end explorations after this, for short trials [3600; 1615 in willowgarage]");
   command->add_flag("--dry-run", options->dry_run,
                     "print the commands, one a line, and their number");
   command->footer(
