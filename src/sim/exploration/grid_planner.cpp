@@ -1,0 +1,136 @@
+#include "sim/exploration/grid_planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace nbvopt {
+namespace {
+
+struct Step {
+  int x, y;
+  double length_cells;
+};
+/// Straight ones first, then each diagonal one.
+constexpr std::array<Step, 8> kSteps{{{1, 0, 1.0},
+                                      {0, 1, 1.0},
+                                      {-1, 0, 1.0},
+                                      {0, -1, 1.0},
+                                      {1, 1, std::numbers::sqrt2},
+                                      {-1, 1, std::numbers::sqrt2},
+                                      {-1, -1, std::numbers::sqrt2},
+                                      {1, -1, std::numbers::sqrt2}}};
+constexpr int kStraightSteps = 4;
+
+Cell offset(int step) {
+  const Step& s = kSteps[static_cast<std::size_t>(step)];
+  return {s.x, s.y};
+}
+
+}  // namespace
+
+GridPlanner::GridPlanner(const DriveCosts& costs, const Eigen::Vector2d& start_map_m,
+                         const Eigen::AlignedBox2i& box)
+    : costs_(costs), start_map_m_(start_map_m), box_(box) {
+  const Cell size = box.sizes() + Cell::Ones();
+  nodes_.assign(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()),
+                {std::numeric_limits<float>::infinity(), 0, false});
+  const int start = number(costs.grid().cell_at(start_map_m));
+  nodes_[static_cast<std::size_t>(start)].cost_m = 0.0F;
+  front_.emplace(0.0F, start);
+}
+
+int GridPlanner::number(const Cell& cell) const {
+  const Cell offset = cell - box_.min();
+  return offset.y() * (box_.sizes().x() + 1) + offset.x();
+}
+
+Cell GridPlanner::cell(int number) const {
+  const int width = box_.sizes().x() + 1;
+  return box_.min() + Cell(number % width, number / width);
+}
+
+std::optional<double> GridPlanner::cost_m(const Cell& goal) {
+  if (!box_.contains(goal)) return std::nullopt;
+  const Node& node = nodes_[static_cast<std::size_t>(number(goal))];
+  while (!node.is_settled && !front_.empty()) {
+    const auto [cost_m, next] = front_.top();
+    front_.pop();
+    if (!nodes_[static_cast<std::size_t>(next)].is_settled) spread(next);
+  }
+  if (!node.is_settled) return std::nullopt;
+  return node.cost_m;
+}
+
+void GridPlanner::spread(int from) {
+  nodes_[static_cast<std::size_t>(from)].is_settled = true;
+  const Cell here = cell(from);
+  // Off the open cells only straight steps lead out; a diagonal one must have room on both sides.
+  std::array<bool, kStraightSteps> is_open{};
+  const bool is_passable = costs_.is_passable(here);
+  for (int step = 0; step < kStraightSteps; ++step) {
+    const Cell next = here + offset(step);
+    if (!box_.contains(next) || !costs_.can_step(here, next)) continue;
+    is_open[static_cast<std::size_t>(step)] = is_passable;
+    relax(from, step);
+  }
+  for (int step = kStraightSteps; step < static_cast<int>(kSteps.size()); ++step) {
+    const auto side = static_cast<std::size_t>(step - kStraightSteps);
+    if (!is_open[side] || !is_open[(side + 1) % kStraightSteps]) continue;
+    if (costs_.is_passable(here + offset(step))) relax(from, step);
+  }
+}
+
+void GridPlanner::relax(int from, int step) {
+  const Cell next = cell(from) + offset(step);
+  const int to = number(next);
+  const double length_m =
+      kSteps[static_cast<std::size_t>(step)].length_cells * costs_.grid().cell_m();
+  const auto cost_m = static_cast<float>(nodes_[static_cast<std::size_t>(from)].cost_m +
+                                         length_m * costs_.weight(next));
+  Node& node = nodes_[static_cast<std::size_t>(to)];
+  if (cost_m >= node.cost_m) return;
+  node.cost_m = cost_m;
+  node.came_by = static_cast<std::int8_t>(step);
+  front_.emplace(cost_m, to);
+}
+
+std::optional<Path> GridPlanner::path(const Eigen::Vector2d& goal_map_m) {
+  const Cell goal = costs_.grid().cell_at(goal_map_m);
+  if (!cost_m(goal)) return std::nullopt;
+  std::vector<Eigen::Vector2d> points{goal_map_m};
+  std::vector<double> costs_m;
+  const Cell start = costs_.grid().cell_at(start_map_m_);
+  for (Cell at = goal; at != start;) {
+    const Node& node = nodes_[static_cast<std::size_t>(number(at))];
+    costs_m.push_back(node.cost_m);
+    at -= offset(node.came_by);
+    points.push_back(at == start ? start_map_m_ : costs_.grid().centre_map_m(at));
+  }
+  costs_m.push_back(0.0);
+  std::ranges::reverse(points);
+  std::ranges::reverse(costs_m);
+  return Path(pull_straight(points, costs_m));
+}
+
+std::vector<Eigen::Vector2d> GridPlanner::pull_straight(const std::vector<Eigen::Vector2d>& points,
+                                                        const std::vector<double>& costs_m) const {
+  // A straight piece may cost a cell more than the steps that it replaces: fewer corners are worth
+  // it, and start and goal are not in the middle of their cells.
+  const double bonus_m = costs_.grid().cell_m();
+  std::vector<Eigen::Vector2d> corners{points.front()};
+  for (std::size_t from = 0; from + 1 < points.size();) {
+    std::size_t to = from + 1;
+    while (to + 1 < points.size() && costs_.line_cost_m(points[from], points[to + 1]) <=
+                                         costs_m[to + 1] - costs_m[from] + bonus_m) {
+      ++to;
+    }
+    corners.push_back(points[to]);
+    from = to;
+  }
+  return corners;
+}
+
+}  // namespace nbvopt

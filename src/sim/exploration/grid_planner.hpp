@@ -1,0 +1,53 @@
+// The cheapest ways over an occupancy grid.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "sim/exploration/drive_costs.hpp"
+#include "sim/exploration/path.hpp"
+
+namespace nbvopt {
+
+/// Ways from one start to any goal: Dijkstra's search over the 8 neighbours of each cell, which
+/// spreads only as far as it is asked and goes on from there.
+class GridPlanner {
+ public:
+  /// Searches inside the box, which holds the start. The costs must not change meanwhile.
+  GridPlanner(const DriveCosts& costs, const Eigen::Vector2d& start_map_m,
+              const Eigen::AlignedBox2i& box);
+
+  /// What the way to a cell costs; none where there is no way.
+  std::optional<double> cost_m(const Cell& goal);
+
+  /// The way to a goal, pulled straight wherever that costs no more; none where there is none.
+  std::optional<Path> path(const Eigen::Vector2d& goal_map_m);
+
+ private:
+  struct Node {
+    float cost_m;
+    std::int8_t came_by;  ///< the number of the step that leads here
+    bool is_settled;
+  };
+  using Entry = std::pair<float, int>;  ///< cost and node: ties settle in the order of nodes
+
+  int number(const Cell& cell) const;
+  Cell cell(int number) const;
+  void spread(int from);
+  void relax(int from, int step);
+  std::vector<Eigen::Vector2d> pull_straight(const std::vector<Eigen::Vector2d>& points,
+                                             const std::vector<double>& costs_m) const;
+
+  const DriveCosts& costs_;
+  Eigen::Vector2d start_map_m_;
+  Eigen::AlignedBox2i box_;
+  std::vector<Node> nodes_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,134 @@
+#include "sim/exploration/plane_robot.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "core/field_check.hpp"
+#include "sim/exploration/start_check.hpp"
+
+namespace nbvopt {
+namespace {
+
+constexpr double kStepsPerSecond = 20.0;
+constexpr std::size_t kStepsPerScan = 4;
+constexpr std::size_t kStepsPerProgress = 20;
+
+/// Where there is room, the base keeps this much farther from walls than it must.
+constexpr double kRoom_m = 0.4;
+
+void validate(const ExplorationOptions& options) {
+  const auto require_positive = [](const char* field, double value) {
+    check_field(value > 0.0, field, value, "positive and finite");
+  };
+  require_positive("base.radius_m", options.base.radius_m);
+  require_positive("base.speed_max_m_s", options.base.speed_max_m_s);
+  require_positive("base.turn_rate_max_rad_s", options.base.turn_rate_max_rad_s);
+  require_positive("base.acceleration_max_m_s2", options.base.acceleration_max_m_s2);
+  require_positive("base.turn_acceleration_max_rad_s2", options.base.turn_acceleration_max_rad_s2);
+  require_positive("mapping_range_m", options.mapping_range_m);
+  require_positive("cell_m", options.cell_m);
+  require_positive("duration_max_s", options.duration_max_s);
+  options.lidar.validate();
+}
+
+/// The start, once it and the options have been found good, before anything is built on them.
+Transform checked_start(const Scene& scene, const Transform& T_map_base,
+                        const ExplorationOptions& options) {
+  validate(options);
+  require_free_start(scene, T_map_base, options);
+  return T_map_base;
+}
+
+/// Scans know distances to whole cells, and the base strays from its path by less than one.
+double clearance_min_m(const ExplorationOptions& options) {
+  return options.base.radius_m + options.cell_m;
+}
+
+double yaw_rad(const Transform& T_map_base) {
+  return std::atan2(T_map_base.linear()(1, 0), T_map_base.linear()(0, 0));
+}
+
+}  // namespace
+
+PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
+                       const ExplorationOptions& options)
+    : options_(options),
+      lidar_(scene, options.lidar),
+      z_map_m_(T_map_base.translation().z()),
+      grid_(options.cell_m),
+      clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
+      motion_(options.base, checked_start(scene, T_map_base, options).translation().head<2>(),
+              yaw_rad(T_map_base)) {
+  record();
+  scan();
+}
+
+Transform PlaneRobot::T_map_base() const {
+  const Eigen::Vector2d& position = motion_.position_map_m();
+  return base_pose(position.x(), position.y(), z_map_m_, motion_.yaw_rad());
+}
+
+void PlaneRobot::drive_to_next_scan() {
+  do {
+    step();
+  } while ((points_.size() - 1) % kStepsPerScan != 0 && !is_out_of_time());
+  scan();
+}
+
+bool PlaneRobot::is_out_of_time() const {
+  return static_cast<double>(points_.size()) / kStepsPerSecond > options_.duration_max_s;
+}
+
+void PlaneRobot::stop() {
+  halt();
+  while (!motion_.stands() && !is_out_of_time()) step();
+}
+
+void PlaneRobot::step() {
+  motion_.step(1.0 / kStepsPerSecond);
+  record();
+  if (options_.progress && (points_.size() - 1) % kStepsPerProgress == 0) {
+    options_.progress(points_.back().time_s);
+  }
+}
+
+void PlaneRobot::record() {
+  const Eigen::Vector2d& position = motion_.position_map_m();
+  points_.push_back({static_cast<double>(points_.size()) / kStepsPerSecond, position.x(),
+                     position.y(), z_map_m_, motion_.yaw_rad()});
+}
+
+void PlaneRobot::scan() {
+  const Transform T_map_base = this->T_map_base();
+  const std::vector<float> ranges_m = lidar_.scan(T_map_base);
+  std::vector<Beam> beams;
+  beams.reserve(ranges_m.size());
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (ranges_m[i] < 0.0F) continue;  // nearer than the lidar measures: where, it does not say
+    const bool is_hit = ranges_m[i] < options_.mapping_range_m;
+    const double length_m = is_hit ? ranges_m[i] : options_.mapping_range_m;
+    const double angle_rad = lidar_.angle_rad(static_cast<int>(i));
+    const Eigen::Vector3d end_base_m(length_m * std::cos(angle_rad), length_m * std::sin(angle_rad),
+                                     0.0);
+    beams.push_back({(T_map_base * end_base_m).head<2>(), is_hit});
+  }
+  clearance_.add_occupied(grid_.insert_scan(position_map_m(), beams));
+}
+
+bool PlaneRobot::is_path_blocked(const DriveCosts& costs) const {
+  if (!motion_.path()) return false;
+  const std::vector<Eigen::Vector2d> rest = motion_.path()->rest(motion_.along_path_m());
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (std::isinf(costs.line_cost_m(rest[i - 1], rest[i]))) return true;
+  }
+  return false;
+}
+
+DriveCosts PlaneRobot::drive_costs(bool through_unknown) const {
+  const double clearance_m = clearance_min_m(options_);
+  return {grid_, clearance_, {clearance_m, clearance_m + kRoom_m, through_unknown}};
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,59 @@
+// A base with a lidar that drives through a scene and maps it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "nbvopt/sim/exploration.hpp"
+#include "sim/exploration/base_motion.hpp"
+#include "sim/exploration/clearance_field.hpp"
+#include "sim/exploration/drive_costs.hpp"
+
+namespace nbvopt {
+
+/// The robot in simulated time: steps of 0.05 s, a scan every 0.2 s.
+class PlaneRobot {
+ public:
+  /// Stands at the start and has scanned once. Throws InputError as explore() does.
+  PlaneRobot(const Scene& scene, const Transform& T_map_base, const ExplorationOptions& options);
+
+  /// Moves on to the next scan and takes it, or to the end of the time.
+  void drive_to_next_scan();
+
+  bool is_out_of_time() const;
+
+  /// Brakes until the base stands.
+  void stop();
+
+  void follow(Path path) { motion_.follow(std::move(path)); }
+  void halt() { motion_.halt(); }
+  bool has_arrived() const { return motion_.has_arrived(); }
+
+  /// Whether what the lidar has seen since bars the rest of the way.
+  bool is_path_blocked(const DriveCosts& costs) const;
+
+  const Eigen::Vector2d& position_map_m() const { return motion_.position_map_m(); }
+  const OccupancyGrid& grid() const { return grid_; }
+
+  /// What ways cost this base, through known free cells only or unknown ones too. It refers to this
+  /// robot.
+  DriveCosts drive_costs(bool through_unknown) const;
+
+  Trajectory trajectory() const { return Trajectory(points_); }
+
+ private:
+  Transform T_map_base() const;
+  void step();
+  void scan();
+  void record();
+
+  ExplorationOptions options_;
+  SimulatedLidar lidar_;
+  double z_map_m_;
+  OccupancyGrid grid_;
+  ClearanceField clearance_;
+  BaseMotion motion_;
+  std::vector<TrajectoryPoint> points_;
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,104 @@
+#include "nbvopt/sim/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/input_file.hpp"
+#include "nbvopt/core/error.hpp"
+#include "sim/world/append_mesh.hpp"
+#include "sim/world/mesh_file.hpp"
+#include "sim/world/sdf_world.hpp"
+#include "sim/world/stray_parts.hpp"
+#include "sim/world/world_cache.hpp"
+#include "sim/world/world_log.hpp"
+#include "sim/world/world_part.hpp"
+
+namespace nbvopt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class FileKind { sdf, mesh };
+
+FileKind kind_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array sdf_extensions{".world", ".sdf"};
+  constexpr std::array mesh_extensions{".ply", ".obj", ".stl", ".dae"};
+  if (std::ranges::count(sdf_extensions, extension) > 0) return FileKind::sdf;
+  if (std::ranges::count(mesh_extensions, extension) > 0) return FileKind::mesh;
+  throw InputError(path.string() +
+                   ": is neither a world (.world, .sdf) nor a mesh (.ply, .obj, .stl, .dae)");
+}
+
+SdfWorld read_parts(const fs::path& path, const WorldOptions& options, WorldLog& log) {
+  if (kind_of(path) == FileKind::sdf) return read_sdf_world(path, options, log);
+  log.read(path);
+  SdfWorld world;
+  world.parts.push_back({.model = path.stem().string(), .mesh = read_mesh_file(path, {})});
+  return world;
+}
+
+/// Puts the parts together.
+World assemble(const SdfWorld& from) {
+  World world;
+  world.models = from.models;
+  world.nested_models = from.nested_models;
+  for (const WorldPart& part : from.parts) {
+    append_mesh(part.mesh, Eigen::Affine3d::Identity(), world.mesh);
+    if (part.is_plane) continue;
+    for (const Eigen::Vector3f& vertex_m : part.mesh.vertices_m) {
+      world.bounds_m.extend(vertex_m.cast<double>());
+    }
+  }
+  return world;
+}
+
+BuiltWorld build_world(const fs::path& path, const WorldOptions& options, WorldLog& log) {
+  SdfWorld parts = read_parts(path, options, log);
+  remove_stray_parts(parts.parts, log);
+  BuiltWorld built{.world = assemble(parts), .first_missing = log.first_missing().value_or("")};
+  built.world.warnings = log.warnings();
+  return built;
+}
+
+/// The world from the cache, or built and kept there. That it cannot be kept is a warning.
+BuiltWorld cached_world(const fs::path& path, const WorldOptions& options) {
+  WorldLog log;
+  if (!options.cache_folder) return build_world(path, options, log);
+  const WorldCache cache(*options.cache_folder, path, options);
+  if (std::optional<BuiltWorld> kept = cache.load()) return *std::move(kept);
+  BuiltWorld built = build_world(path, options, log);
+  // A file that appears changes the world without a trace in the files that it was built from.
+  if (!log.is_lasting()) return built;
+  try {
+    cache.store(built, log.files());
+  } catch (const InputError& error) {
+    built.world.warnings.push_back(std::string("the world is not kept: ") + error.what());
+  }
+  return built;
+}
+
+}  // namespace
+
+World read_world(const fs::path& path, const WorldOptions& options) {
+  open_input_file(path);
+  BuiltWorld built = cached_world(path, options);
+  if (options.is_strict && !built.first_missing.empty()) {
+    throw InputError(path.string() + ": " + built.first_missing);
+  }
+  if (built.world.mesh.triangles.empty()) {
+    const std::vector<std::string>& warnings = built.world.warnings;
+    throw InputError(path.string() + ": there is no geometry in it" +
+                     (warnings.empty() ? "" : "; the first warning: " + warnings.front()));
+  }
+  return std::move(built.world);
+}
+
+}  // namespace nbvopt
