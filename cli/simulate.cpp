@@ -78,6 +78,11 @@ Transform start_pose(const SimulateOptions& options, const Scene& scene) {
 Exploration drive(const SimulateOptions& options, const Scene& scene) {
   ExplorationOptions exploration = options.exploration;
   exploration.seed = static_cast<std::uint64_t>(options.seed);
+  std::optional<Progress> progress;
+  if (!options.is_silent) {
+    progress.emplace("exploring, at most", exploration.duration_max_s);
+    exploration.progress = [&](double time_s) { progress->update(time_s); };
+  }
   const Transform T_map_base = start_pose(options, scene);
   return options.goals_m.empty() ? explore(scene, T_map_base, exploration)
                                  : drive_to(scene, T_map_base, options.goals_m, exploration);

@@ -1,10 +1,13 @@
-# What `cmake --install` puts in place: the library, its headers, its package config, the tool.
+# What `cmake --install` puts in place: the libraries, their headers, the package config, the tool.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nbvopt)
 
 install(TARGETS nbvopt EXPORT nbvoptTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT nbvoptTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
+# A component of its own: who only plans needs none of the simulator's libraries.
+install(TARGETS nbvopt_sim EXPORT nbvoptSimTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT nbvoptSimTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
 install(DIRECTORY include/nbvopt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 configure_package_config_file(cmake/nbvoptConfig.cmake.in nbvoptConfig.cmake
