@@ -10,7 +10,7 @@ namespace nbvopt {
 namespace {
 
 /// Episodes of one environment and setting, by start.
-using Episodes = std::map<std::size_t, EpisodeSummary>;
+using Episodes = std::map<std::size_t, EpisodeFigures>;
 
 /// Every result where it belongs.
 class ResultIndex {
@@ -38,7 +38,7 @@ class ResultIndex {
   std::span<const UnitResult> results_;
 };
 
-double mean(const Episodes& episodes, double EpisodeSummary::*figure) {
+double mean(const Episodes& episodes, double EpisodeFigures::*figure) {
   double sum = 0.0;
   for (const auto& [start, episode] : episodes) sum += episode.*figure;
   return sum / static_cast<double>(episodes.size());
@@ -58,9 +58,9 @@ std::string test_name(const EpisodeSetting& setting) {
 
 void set_figures(ResultRow& row, const Episodes& episodes) {
   row.starts = static_cast<double>(episodes.size());
-  row.voxels = mean(episodes, &EpisodeSummary::voxels);
-  row.information = mean(episodes, &EpisodeSummary::information);
-  row.duration_s = mean(episodes, &EpisodeSummary::duration_s);
+  row.voxels = mean(episodes, &EpisodeFigures::voxels);
+  row.information = mean(episodes, &EpisodeFigures::information);
+  row.duration_s = mean(episodes, &EpisodeFigures::duration_s);
   row.voxels_per_s = *row.voxels / *row.duration_s;
   row.information_per_s = *row.information / *row.duration_s;
 }
@@ -69,15 +69,15 @@ void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes
   const Episodes episodes = shared_with(all_episodes, all_still);
   const Episodes still = shared_with(all_still, all_episodes);
   if (episodes.empty()) return;
-  const auto percent = [&](double EpisodeSummary::*figure) {
+  const auto percent = [&](double EpisodeFigures::*figure) {
     return 100.0 * (mean(episodes, figure) / mean(still, figure) - 1.0);
   };
-  row.voxels_percent = percent(&EpisodeSummary::voxels);
+  row.voxels_percent = percent(&EpisodeFigures::voxels);
   row.gain =
-      mean(episodes, &EpisodeSummary::information) - mean(still, &EpisodeSummary::information);
-  row.gain_percent = percent(&EpisodeSummary::information);
-  row.as_paper_counts_voxels_percent = percent(&EpisodeSummary::voxels_as_paper_counts);
-  row.as_paper_counts_gain_percent = percent(&EpisodeSummary::information_as_paper_counts);
+      mean(episodes, &EpisodeFigures::information) - mean(still, &EpisodeFigures::information);
+  row.gain_percent = percent(&EpisodeFigures::information);
+  row.as_paper_counts_voxels_percent = percent(&EpisodeFigures::voxels_as_paper_counts);
+  row.as_paper_counts_gain_percent = percent(&EpisodeFigures::information_as_paper_counts);
 }
 
 /// What the paper's tables say of this test: they know a still camera and the pan grid.

@@ -15,8 +15,8 @@ namespace nbvopt {
 
 /// What a unit left behind; none of both when it has not been run to its end.
 struct UnitResult {
-  std::optional<ExplorationSummary> exploration;
-  std::optional<EpisodeSummary> episode;
+  std::optional<ExplorationFigures> exploration;
+  std::optional<EpisodeFigures> episode;
 };
 
 /// Which test of which environment a row is about.

@@ -24,11 +24,11 @@ auto read_summary(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-EpisodeSummary read_episode_summary(const std::filesystem::path& path) {
+EpisodeFigures read_episode_summary(const std::filesystem::path& path) {
   return read_summary(path, [](const json& fields) {
     const json& prediction = fields.at("prediction");
     const json& pooled = prediction.at("pooled");
-    return EpisodeSummary{
+    return EpisodeFigures{
         .duration_s = fields.at("duration_s").get<double>(),
         .voxels = fields.at("voxels").get<double>(),
         .information = fields.at("information").get<double>(),
@@ -43,9 +43,9 @@ EpisodeSummary read_episode_summary(const std::filesystem::path& path) {
   });
 }
 
-ExplorationSummary read_exploration_summary(const std::filesystem::path& path) {
+ExplorationFigures read_exploration_summary(const std::filesystem::path& path) {
   return read_summary(path, [](const json& fields) {
-    return ExplorationSummary{.status = fields.at("status").get<std::string>(),
+    return ExplorationFigures{.status = fields.at("status").get<std::string>(),
                               .duration_s = fields.at("duration_s").get<double>(),
                               .length_m = fields.at("length_m").get<double>()};
   });

@@ -8,7 +8,7 @@
 
 namespace nbvopt {
 
-struct EpisodeSummary {
+struct EpisodeFigures {
   double duration_s = 0.0;
   double voxels = 0.0;
   double information = 0.0;
@@ -17,7 +17,7 @@ struct EpisodeSummary {
   PredictionRecord prediction;
 };
 
-struct ExplorationSummary {
+struct ExplorationFigures {
   std::string status;
   double duration_s = 0.0;
   double length_m = 0.0;
@@ -25,7 +25,7 @@ struct ExplorationSummary {
 
 /// Read a summary. Throw InputError that names the file and the fault when it is missing, torn or
 /// without a number that it should hold.
-EpisodeSummary read_episode_summary(const std::filesystem::path& path);
-ExplorationSummary read_exploration_summary(const std::filesystem::path& path);
+EpisodeFigures read_episode_summary(const std::filesystem::path& path);
+ExplorationFigures read_exploration_summary(const std::filesystem::path& path);
 
 }  // namespace nbvopt

@@ -120,11 +120,14 @@ Transform Trajectory::T_map_base(double time_s) const {
 }
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
-  const std::string content = read_text_file(path);
-  std::string_view text = content;
+  return parse_trajectory(read_text_file(path), path.string());
+}
+
+Trajectory parse_trajectory(const std::string& csv, const std::string& name) {
+  std::string_view text = csv;
   int number = 1;
   const auto refuse = [&](const std::string& what) {
-    throw InputError(path.string() + ": line " + std::to_string(number) + ": " + what);
+    throw InputError(name + ": line " + std::to_string(number) + ": " + what);
   };
   if (take_line(text) != header()) {
     refuse("is not the header of a trajectory, it must be " + header());

@@ -42,8 +42,8 @@ class Reproduction : public testing::Test {
   }
 
   /// As the authors count, there is twice as much, and 10 more.
-  static EpisodeSummary episode(double voxels, double information) {
-    EpisodeSummary summary;
+  static EpisodeFigures episode(double voxels, double information) {
+    EpisodeFigures summary;
     summary.duration_s = 100.0;
     summary.voxels = voxels;
     summary.information = information;

@@ -41,6 +41,8 @@ class Trajectory {
 /// keeps every bit of the numbers: what is read equals what was written. Reading throws InputError
 /// that names file, line and fault.
 Trajectory read_trajectory(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in messages.
+Trajectory parse_trajectory(const std::string& csv, const std::string& name);
 void write_trajectory(const Trajectory& trajectory, const std::filesystem::path& path);
 
 }  // namespace nbvopt

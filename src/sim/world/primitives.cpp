@@ -13,8 +13,8 @@ namespace {
 using Vertices = std::vector<Eigen::Vector3f>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr int sides = 64;
-constexpr int arc_steps = sides / 4;  // of a profile's quarter circle
+constexpr int kSides = 64;
+constexpr int kArcSteps = kSides / 4;  // of a profile's quarter circle
 
 /// A mesh stretched along its axes.
 TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors) {
@@ -27,18 +27,18 @@ TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors) {
 TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile_m) {
   TriangleMesh mesh;
   for (const Eigen::Vector2d& point_m : profile_m) {
-    for (int side = 0; side < sides; ++side) {
-      const double angle_rad = 2.0 * std::numbers::pi * side / sides;
+    for (int side = 0; side < kSides; ++side) {
+      const double angle_rad = 2.0 * std::numbers::pi * side / kSides;
       mesh.vertices_m.emplace_back(Eigen::Vector3d(point_m.x() * std::cos(angle_rad),
                                                    point_m.x() * std::sin(angle_rad), point_m.y())
                                        .cast<float>());
     }
   }
   for (std::uint32_t ring = 0; ring + 1 < profile_m.size(); ++ring) {
-    for (std::uint32_t side = 0; side < sides; ++side) {
-      const std::uint32_t lower = ring * sides;
-      const std::uint32_t upper = lower + sides;
-      const std::uint32_t next = (side + 1) % sides;
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+      const std::uint32_t lower = ring * kSides;
+      const std::uint32_t upper = lower + kSides;
+      const std::uint32_t next = (side + 1) % kSides;
       mesh.triangles.push_back({lower + side, lower + next, upper + next});
       mesh.triangles.push_back({lower + side, upper + next, upper + side});
     }
@@ -50,8 +50,8 @@ TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile_m) {
 /// A quarter circle upwards from a latitude.
 void append_arc(double latitude_rad, double radius_m, double centre_z_m,
                 std::vector<Eigen::Vector2d>& profile_m) {
-  for (int step = 0; step <= arc_steps; ++step) {
-    const double angle_rad = latitude_rad + 0.5 * std::numbers::pi * step / arc_steps;
+  for (int step = 0; step <= kArcSteps; ++step) {
+    const double angle_rad = latitude_rad + 0.5 * std::numbers::pi * step / kArcSteps;
     const bool is_pole = std::abs(angle_rad) >= 0.5 * std::numbers::pi;
     profile_m.emplace_back(is_pole ? 0.0 : radius_m * std::cos(angle_rad),
                            centre_z_m + radius_m * std::sin(angle_rad));

@@ -59,13 +59,13 @@ class LentFindCallback {
 /// The text with blanks instead of a comment before its XML declaration, so that line numbers stay.
 /// Older parsers let such a comment pass, and Gazebo's own cafe.world has one.
 std::string with_declaration_first(std::string xml) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t comment = xml.find_first_not_of(blanks);
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t comment = xml.find_first_not_of(kBlanks);
   const std::size_t comment_end = xml.find("-->", comment);
   const std::size_t declaration = xml.find("<?xml", comment_end);
   if (declaration == std::string::npos) return xml;
   if (!std::string_view(xml).substr(comment).starts_with("<!--")) return xml;
-  if (xml.find_first_not_of(blanks, comment_end + 3) != declaration) return xml;
+  if (xml.find_first_not_of(kBlanks, comment_end + 3) != declaration) return xml;
   std::replace_if(
       xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(declaration),
       [](char c) { return c != '\n'; }, ' ');
@@ -80,17 +80,17 @@ struct Fault {
 
 /// Reads lines `Error Code 13: [place]: Msg: text`, where the place may be absent.
 std::vector<Fault> faults_in(const std::string& printed) {
-  constexpr std::string_view start = "Error Code ";
-  constexpr std::string_view separator = "Msg: ";
+  constexpr std::string_view kStart = "Error Code ";
+  constexpr std::string_view kSeparator = "Msg: ";
   std::vector<Fault> faults;
   std::istringstream lines(printed);
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t text = line.find(separator);
-    if (!line.starts_with(start) || text == std::string::npos) continue;
-    const auto code = static_cast<sdf::ErrorCode>(std::atoi(line.c_str() + start.size()));
+    const std::size_t text = line.find(kSeparator);
+    if (!line.starts_with(kStart) || text == std::string::npos) continue;
+    const auto code = static_cast<sdf::ErrorCode>(std::atoi(line.c_str() + kStart.size()));
     const std::size_t place = line.find(": ") + 2;
     faults.push_back(
-        {code, line.substr(place, text - place) + line.substr(text + separator.size())});
+        {code, line.substr(place, text - place) + line.substr(text + kSeparator.size())});
   }
   return faults;
 }
@@ -153,9 +153,9 @@ class IncludeFinder {
  private:
   /// libsdformat follows a model that includes itself until the stack ends.
   void refuse_endless(const std::string& uri) const {
-    constexpr std::uintptr_t stack_max_bytes = 128 * 1024;  // about 25 models in each other
+    constexpr std::uintptr_t kStackMax_bytes = 128 * 1024;  // about 25 models in each other
     const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
-    if (stack_start_ - here < stack_max_bytes) return;
+    if (stack_start_ - here < kStackMax_bytes) return;
     throw InputError(world_file_.string() + ": model '" + uri +
                      "' is included too deeply, does it include itself?");
   }

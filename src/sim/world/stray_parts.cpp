@@ -12,9 +12,9 @@ namespace nbvopt {
 namespace {
 
 /// Nothing nearer than this is stray, however small the world: it is beyond any sensor's range.
-constexpr double stray_distance_min_m = 1000.0;
+constexpr double kStrayDistanceMin_m = 1000.0;
 /// A city's quarters are a few times farther from its middle than most of it; not this often.
-constexpr double stray_distance_factor = 100.0;
+constexpr double kStrayDistanceFactor = 100.0;
 
 Eigen::AlignedBox3d bounds_of(const WorldPart& part) {
   Eigen::AlignedBox3d box;
@@ -61,7 +61,7 @@ void remove_stray_parts(std::vector<WorldPart>& parts, WorldLog& log) {
   const auto distance_m = [&](const auto& box) { return (box.center() - middle_m).norm(); };
   const double reach_m =
       median_of([&](const auto& box) { return distance_m(box) + 0.5 * box.diagonal().norm(); });
-  const double limit_m = std::max(stray_distance_min_m, stray_distance_factor * reach_m);
+  const double limit_m = std::max(kStrayDistanceMin_m, kStrayDistanceFactor * reach_m);
 
   std::vector<WorldPart> kept;
   for (std::size_t i = 0; i < parts.size(); ++i) {

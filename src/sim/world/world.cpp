@@ -29,10 +29,10 @@ FileKind kind_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array sdf_extensions{".world", ".sdf"};
-  constexpr std::array mesh_extensions{".ply", ".obj", ".stl", ".dae"};
-  if (std::ranges::count(sdf_extensions, extension) > 0) return FileKind::sdf;
-  if (std::ranges::count(mesh_extensions, extension) > 0) return FileKind::mesh;
+  constexpr std::array kSdfExtensions{".world", ".sdf"};
+  constexpr std::array kMeshExtensions{".ply", ".obj", ".stl", ".dae"};
+  if (std::ranges::count(kSdfExtensions, extension) > 0) return FileKind::sdf;
+  if (std::ranges::count(kMeshExtensions, extension) > 0) return FileKind::mesh;
   throw InputError(path.string() +
                    ": is neither a world (.world, .sdf) nor a mesh (.ply, .obj, .stl, .dae)");
 }

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<char, 8> magic{'n', 'b', 'v', 'w', 'o', 'r', 'l', 'd'};
+constexpr std::array<char, 8> kMagic{'n', 'b', 'v', 'w', 'o', 'r', 'l', 'd'};
 /// To be raised when the format changes, or worlds are built differently from the same files.
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t kFormatVersion = 1;
 
 /// FNV-1a, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
@@ -74,7 +74,7 @@ std::optional<BuiltWorld> unpack(std::string_view bytes, const std::string& expe
   header(found_magic);
   header(found_version);
   header(found_checksum);
-  if (found_magic != magic || found_version != format_version) return std::nullopt;
+  if (found_magic != kMagic || found_version != kFormatVersion) return std::nullopt;
   if (found_checksum != checksum(header.rest())) return std::nullopt;
 
   ByteReader content(header.rest());
@@ -130,8 +130,8 @@ void WorldCache::store(const BuiltWorld& built, const std::set<fs::path>& files)
   content(stamps);
   archive_world(content, built);
   ByteWriter header;
-  header(magic);
-  header(format_version);
+  header(kMagic);
+  header(kFormatVersion);
   header(checksum(content.bytes()));
 
   std::error_code ignored;  // writing says why it fails

@@ -27,8 +27,8 @@ struct SharedWorld {
   Eigen::Vector3d visual_size_m;
 };
 
-constexpr std::uint64_t sphere_triangles = 64 * 2 * 31;
-constexpr std::uint64_t cylinder_triangles = 64 * 4;
+constexpr std::uint64_t kSphereTriangles = 64 * 2 * 31;
+constexpr std::uint64_t kCylinderTriangles = 64 * 4;
 
 class SharedWorlds : public testing::TestWithParam<SharedWorld> {};
 
@@ -51,7 +51,7 @@ TEST_P(SharedWorlds, LoadAsTheirReadmeSays) {
   EXPECT_EQ(visual.models + visual.nested_models, expected.all_models);
   EXPECT_EQ(visual.mesh.triangles.size(),
             expected.readme_triangles - expected.triangles_without_area +
-                expected.spheres * sphere_triangles + expected.cylinders * cylinder_triangles);
+                expected.spheres * kSphereTriangles + expected.cylinders * kCylinderTriangles);
   const World& measured = expected.readme_box == WorldGeometry::visual ? visual : collision;
   EXPECT_LT((measured.bounds_m.sizes() - expected.readme_size_m).cwiseAbs().maxCoeff(), 0.01);
   EXPECT_LT((size_m - expected.visual_size_m).cwiseAbs().maxCoeff(), 0.01);
