@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
@@ -34,11 +35,6 @@ void check_positive(const std::string& what, double value, const std::string& un
   if (value > 0.0 && std::isfinite(value)) return;
   throw InputError(what + " is " + format_number(value) + ' ' + unit +
                    ", it must be greater than 0 and finite");
-}
-
-void check(const EpisodeOptions& options) {
-  check_positive("the motion time of an episode", options.motion_time_s, "s");
-  if (options.capture_hz) check_positive("the capture rate", *options.capture_hz, "Hz");
 }
 
 /// The joints of a camera that moves from one view to the next.
@@ -190,10 +186,19 @@ class EpisodeRun {
 
 }  // namespace
 
+void EpisodeOptions::validate() const {
+  check_positive("the motion time of an episode", motion_time_s, "s");
+  if (capture_hz) check_positive("the capture rate", *capture_hz, "Hz");
+  check_range_noise(range_noise_m);
+  robot.sensor.validate();
+  std::vector<std::string> warnings;
+  Mast(robot.mast).clamped(start_joints, warnings);
+}
+
 EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
                            const EpisodeOptions& options, UncertaintyMap& map,
                            const std::function<void(const Capture&)>& observe) {
-  check(options);
+  options.validate();
   return EpisodeRun(scene, trajectory, mode, options, map, observe).run();
 }
 

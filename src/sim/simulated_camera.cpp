@@ -24,6 +24,12 @@ std::vector<float> cast(const Scene& scene, const CameraRays& rays, const Sensor
 
 }  // namespace
 
+void check_range_noise(double range_noise_m) {
+  if (range_noise_m >= 0.0 && std::isfinite(range_noise_m)) return;
+  throw InputError("the range noise is " + format_number(range_noise_m) +
+                   " m, it must be 0 or more and finite");
+}
+
 SimulatedCamera::SimulatedCamera(const Scene& scene, const SensorOptions& sensor,
                                  double range_noise_m, std::uint64_t seed)
     : scene_(scene),
@@ -31,10 +37,7 @@ SimulatedCamera::SimulatedCamera(const Scene& scene, const SensorOptions& sensor
       pixels_(make_rays(sensor, sensor.horizontal_pixels, sensor.vertical_pixels)),
       range_noise_m_(range_noise_m),
       seed_(seed) {
-  if (!(range_noise_m >= 0.0 && std::isfinite(range_noise_m))) {
-    throw InputError("the range noise is " + format_number(range_noise_m) +
-                     " m, it must be 0 or more and finite");
-  }
+  check_range_noise(range_noise_m);
 }
 
 Scan SimulatedCamera::capture(const Transform& T_map_sensor, std::uint64_t frame) const {

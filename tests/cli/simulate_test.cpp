@@ -127,6 +127,8 @@ TEST_F(Simulate, RefusesAWrongCommandLine) {
 TEST_F(Simulate, RefusesWhatCannotBeRun) {
   expect_refusal(nbvopt_run({"simulate", folder / "no.world", "--start", "0,0,0"}), 3, "no.world");
   expect_refusal(nbvopt_run(episode({"--motion-time", "0"})), 3, "motion time");
+  expect_refusal(nbvopt_run(episode({"--range-noise", "-1"})), 3, "range noise");
+  expect_refusal(nbvopt_run(episode({"--resolution", "0"})), 3, "resolution");
   expect_refusal(nbvopt_run(episode({"--height", "3"})), 3, "height");
   expect_refusal(nbvopt_run(episode({"--map-out", folder / "no/map.ot"})), 3, "no folder");
   expect_refusal(nbvopt_run(drive({"--start", "0,0.05,0"})), 3, "the start (0, 0.05)");

@@ -26,6 +26,10 @@ struct EpisodeOptions {
   bool charge_computing = false;
   double range_noise_m = 0.0;  ///< standard deviation
   std::uint64_t seed = 1;      ///< of noise, and with the capture's number of what modes draw
+
+  /// Throws InputError that names the first bad value: a motion time or rate that is not positive,
+  /// joints beyond their limits, a bad robot or noise.
+  void validate() const;
 };
 
 /// One capture, and what was planned on the map with it.
@@ -62,8 +66,7 @@ struct EpisodeSummary {
 /// Runs an episode and grows the map, which the caller keeps whatever happens. Calls `observe`
 /// after each capture; what it throws ends the episode. Without computing time charged, the same
 /// arguments give the same map and captures, times in ms aside, for any number of threads. Throws
-/// InputError: a motion time or rate that is not positive, joints beyond their limits, bad robot or
-/// noise; the map is then untouched.
+/// InputError as EpisodeOptions::validate() does; the map is then untouched.
 EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
                            const EpisodeOptions& options, UncertaintyMap& map,
                            const std::function<void(const Capture&)>& observe);

@@ -13,11 +13,14 @@
 
 namespace nbvopt {
 
+/// Throws InputError when a standard deviation of ranges is negative or not finite.
+void check_range_noise(double range_noise_m);
+
 /// Takes the depth images of SensorOptions: horizontal_pixels x vertical_pixels, pinhole.
 class SimulatedCamera {
  public:
-  /// Ranges get Gaussian noise of this standard deviation; 0: none. Throws InputError when it is
-  /// negative or not finite, and as SensorOptions::validate() does. The scene must outlive the
+  /// Ranges get Gaussian noise of this standard deviation; 0: none. Throws InputError as
+  /// check_range_noise() and SensorOptions::validate() do. The scene must outlive the
   /// camera.
   SimulatedCamera(const Scene& scene, const SensorOptions& sensor, double range_noise_m,
                   std::uint64_t seed);
