@@ -95,10 +95,10 @@ std::string to_text(const EpisodeReport& report) {
                      decimal(summary.duration_s, 1) + " s of driving\n" +
                      "map: " + std::to_string(summary.voxels) + " voxels with u < 1, information " +
                      decimal(summary.information, 1) + "\n";
-  if (prediction.steps > 1) {
+  if (std::isfinite(prediction.correlation())) {
     text += "gain: predicted " + decimal(prediction.sum_x, 0) + ", realised " +
-            decimal(prediction.sum_y, 0) + " (" + percent(prediction.bias()) +
-            " too much), correlation " + decimal(prediction.correlation(), 3) + "\n";
+            decimal(prediction.sum_y, 0) + " (bias " + percent(prediction.bias()) +
+            "), correlation " + decimal(prediction.correlation(), 3) + "\n";
   }
   const StepTimes& times = report.times;
   return text + "computing: " + decimal(1e-3 * report.elapsed_ms, 1) + " s, " +

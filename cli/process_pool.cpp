@@ -24,10 +24,15 @@ class HeldSignals {
     sigemptyset(&held_);
     for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) sigaddset(&held_, signal);
     ::pthread_sigmask(SIG_BLOCK, &held_, &before_);
+    // A parent may have told us to ignore it: children would then vanish unseen.
+    child_before_ = std::signal(SIGCHLD, SIG_DFL);
   }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
-  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  ~HeldSignals() {
+    std::signal(SIGCHLD, child_before_);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
 
   int wait() const {
     int signal = -1;
@@ -39,6 +44,7 @@ class HeldSignals {
  private:
   sigset_t held_;
   sigset_t before_;
+  void (*child_before_)(int) = SIG_DFL;
 };
 
 /// Starts a job with the signals that its parent was given.

@@ -12,19 +12,26 @@
 #include "cli/simulate_arguments.hpp"
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/sim/floor.hpp"
 
 namespace nbvopt {
 namespace {
 
+double floor_below(const Scene& scene, const Eigen::Vector3d& above_map_m) {
+  const std::optional<double> z_m = floor_height_m(scene, above_map_m);
+  if (z_m) return *z_m;
+  throw InputError("--start: there is no floor below z = " + format_number(above_map_m.z()) +
+                   " m, write X,Y,Z,YAW");
+}
+
 Transform start_pose(const SimulateOptions& options, const Scene& scene) {
   // Above what a robot can stand on, below tables and ceilings.
   constexpr double kAboveFloor_m = 0.5;
   const std::vector<double>& start = options.start;
-  const double z_m = start.size() == 4
-                         ? start[2]
-                         : floor_height_m(scene, {start[0], start[1], kAboveFloor_m}).value_or(0.0);
+  const double z_m =
+      start.size() == 4 ? start[2] : floor_below(scene, {start[0], start[1], kAboveFloor_m});
   return base_pose(start[0], start[1], z_m, start.back());
 }
 
@@ -103,7 +110,7 @@ Episode make_episode(const SimulateOptions& options) {
   return episode;
 }
 
-/// Runs the episode; whatever ends it, the map so far is written.
+/// Runs the episode; whatever error ends it, the map so far is written.
 EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
                            const Trajectory& trajectory, Episode& episode) {
   UncertaintyMap& map = episode.map;
@@ -126,8 +133,12 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
                                    if (!options.plot_out.empty()) captures.push_back(capture);
                                    if (progress) progress->update(capture.time_s);
                                  });
-  } catch (...) {
-    keep_map();
+  } catch (const InputError& error) {
+    try {
+      keep_map();
+    } catch (const InputError& of_map) {
+      throw InputError(std::string(error.what()) + "; nor is the map kept: " + of_map.what());
+    }
     throw;
   }
   keep_map();

@@ -102,6 +102,13 @@ void check(const SimulateOptions& options) {
   if (options.is_exploring_only && !options.trajectory_file.empty()) {
     throw UsageError("--explore-only makes a trajectory: leave --trajectory out");
   }
+  if (!options.trajectory_file.empty() && !options.trajectory_out.empty()) {
+    throw UsageError("--trajectory-out keeps a drive that is made: leave it or --trajectory out");
+  }
+  if (options.is_exploring_only &&
+      !(options.map_out.empty() && options.metrics_out.empty() && options.plot_out.empty())) {
+    throw UsageError("--explore-only maps nothing: leave --map-out, --metrics and --plot out");
+  }
   // An episode whose outcome could not be kept would be in vain.
   for (const std::string& file : {options.trajectory_out, options.map_out, options.metrics_out,
                                   options.summary_out, options.plot_out}) {

@@ -52,10 +52,12 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
       ->capture_default_str();
   app.add_flag("--strict", arguments.is_strict,
                "refuse a world with parts missing instead of warning");
-  app.add_option("--cache", arguments.cache_folder,
-                 "where to keep the built world [$XDG_CACHE_HOME/nbvopt or ~/.cache/nbvopt]")
-      ->type_name("DIR");
-  app.add_flag("!--no-cache", arguments.is_cached, "build the world anew and keep nothing");
+  CLI::Option* cache =
+      app.add_option("--cache", arguments.cache_folder,
+                     "where to keep the built world [$XDG_CACHE_HOME/nbvopt or ~/.cache/nbvopt]");
+  cache->type_name("DIR");
+  app.add_flag("!--no-cache", arguments.is_cached, "build the world anew and keep nothing")
+      ->excludes(cache);
 }
 
 World read_world(const WorldArguments& arguments) {

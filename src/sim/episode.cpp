@@ -1,5 +1,6 @@
 #include "nbvopt/sim/episode.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -17,6 +18,8 @@ namespace nbvopt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kTimeTolerance_s = 1e-9;
 
 /// Runs the work and adds the milliseconds that it took.
 template <class Work>
@@ -72,7 +75,7 @@ class EpisodeRun {
     double time_s = 0.0;
     for (std::uint64_t cycle = 1; time_s <= trajectory_.duration_s(); ++cycle) {
       const double computing_s = 1e-3 * look_and_plan(time_s);
-      // Multiples of t, not sums, so that captures meet the trajectory's own times.
+      // Multiples of t, since the errors of a sum would grow.
       const double next_s = options_.charge_computing
                                 ? time_s + computing_s + options_.motion_time_s
                                 : static_cast<double>(cycle) * options_.motion_time_s;
@@ -111,7 +114,8 @@ class EpisodeRun {
     if (!options_.capture_hz) return;
     for (int i = 1;; ++i) {
       const double time_s = begin_s + i / *options_.capture_hz;
-      if (time_s >= end_s || time_s > trajectory_.duration_s()) return;
+      // A capture that rounding puts just before the next view is that view's.
+      if (time_s >= end_s - kTimeTolerance_s || time_s > trajectory_.duration_s()) return;
       Capture capture = begin_capture(time_s, true);
       insert(capture);
       observe_(capture);

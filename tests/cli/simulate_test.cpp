@@ -114,12 +114,16 @@ TEST_F(Simulate, KeepsTheMapOfAnEpisodeThatTheDiskEnded) {
   expect_refusal(nbvopt_run(episode({"--map-out", map_file, "--metrics", "/dev/full"})), 3,
                  "/dev/full: cannot be written: No space left on device");
   EXPECT_GT(read_map(map_file).counts().information, 0.0);
+  expect_refusal(nbvopt_run(episode({"--map-out", "/dev/full", "--metrics", "/dev/full"})), 3,
+                 "nor is the map kept");
 }
 
 TEST_F(Simulate, RefusesAWrongCommandLine) {
   expect_refusal(nbvopt_run({"simulate", kOffice, "--no-cache"}), 2, "--start X,Y,YAW");
   expect_refusal(nbvopt_run(episode({"--start", "0,0,0"})), 2, "--trajectory holds the whole");
   expect_refusal(nbvopt_run(episode({"--explore-only"})), 2, "--explore-only");
+  expect_refusal(nbvopt_run(drive({"--start", "1,1,0", "--map-out", folder / "map.ot"})), 2,
+                 "--explore-only maps nothing");
   expect_refusal(nbvopt_run(episode({"--mode", "clever"})), 2, "no camera mode 'clever'");
   expect_refusal(nbvopt_run(drive({"--start", "0,0"})), 2, "X,Y,YAW");
 }
@@ -132,6 +136,9 @@ TEST_F(Simulate, RefusesWhatCannotBeRun) {
   expect_refusal(nbvopt_run(episode({"--height", "3"})), 3, "height");
   expect_refusal(nbvopt_run(episode({"--map-out", folder / "no/map.ot"})), 3, "no folder");
   expect_refusal(nbvopt_run(drive({"--start", "0,0.05,0"})), 3, "the start (0, 0.05)");
+  expect_refusal(nbvopt_run(drive({"--start", "50,50,0"})), 3, "there is no floor");
+  expect_refusal(nbvopt_run(drive({"--start", "0.617,0.713,0", "--goal", "3000,3000"})), 3,
+                 "200 m");
   expect_refusal(nbvopt_run(drive({"--start", "0.617,0.713,0", "--goal", "4.75,3"})), 3, "goal");
 }
 
@@ -152,7 +159,7 @@ class SimulateWorlds : public Simulate {
                         "--no-progress",
                         "--explore-only",
                         "--start",
-                        "5,5,0",
+                        "5,5,0,0",
                         "--duration-max",
                         "0.5"};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -46,8 +46,9 @@ struct Capture {
   double information = 0.0;       ///< of the map, Eq. 11, this capture included
   double information_gain = 0.0;  ///< what this capture added
   double predicted_gain = kNaN;   ///< of this view when it was planned; NaN: it was not
-  double realised_gain = kNaN;    ///< of this view in the same unit; NaN where it was not planned
-  double motion_time_s = 0.0;     ///< that the joints need to the view planned next
+  /// Of this view in the same unit, on the map as it was just before; NaN where it was not planned.
+  double realised_gain = kNaN;
+  double motion_time_s = 0.0;  ///< that the joints need to the view planned next
   double render_ms = 0.0;
   double insert_ms = 0.0;  ///< into the map
   double grid_ms = 0.0;    ///< of voxels, which planning works on

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,6 +12,10 @@
 
 namespace nbvopt {
 namespace {
+
+/// The way is searched in the box of all that is known and the goal: a larger one would not fit
+/// into memory.
+constexpr double kFarthestGoal_m = 200.0;
 
 /// How far beyond all that is known and the goal a way around may lead.
 constexpr double kDetour_m = 10.0;
@@ -62,9 +67,14 @@ Exploration drive_to(const Scene& scene, const Transform& T_map_base,
   ExplorationStatus status = ExplorationStatus::complete;
   for (std::size_t i = 0; i < goals_map_m.size() && status == ExplorationStatus::complete; ++i) {
     const Eigen::Vector2d& goal_map_m = goals_map_m[i];
+    const double distance_m = (goal_map_m - robot.position_map_m()).norm();
     const std::string name = "goal " + std::to_string(i + 1) + " (" +
                              format_number(goal_map_m.x()) + ", " + format_number(goal_map_m.y()) +
                              ")";
+    if (distance_m > kFarthestGoal_m) {
+      throw InputError(name + " is " + format_number(std::round(distance_m)) +
+                       " m away, it must be at most 200 m: give others on the way");
+    }
     if (!reach(robot, costs, goal_map_m, name)) status = ExplorationStatus::time_limit;
   }
   robot.stop();

@@ -22,23 +22,30 @@ void validate(const ExplorationOptions& options) {
   const auto require_positive = [](const char* field, double value) {
     check_field(value > 0.0, field, value, "positive and finite");
   };
-  require_positive("base.radius_m", options.base.radius_m);
+  // Beyond these, grids of the plane would not fit into memory.
+  constexpr double kRadiusMax_m = 10.0;
+  constexpr double kCellMin_m = 0.01;
+  check_field(options.base.radius_m > 0.0 && options.base.radius_m <= kRadiusMax_m, "base.radius_m",
+              options.base.radius_m, "positive and at most 10");
   require_positive("base.speed_max_m_s", options.base.speed_max_m_s);
   require_positive("base.turn_rate_max_rad_s", options.base.turn_rate_max_rad_s);
   require_positive("base.acceleration_max_m_s2", options.base.acceleration_max_m_s2);
   require_positive("base.turn_acceleration_max_rad_s2", options.base.turn_acceleration_max_rad_s2);
-  require_positive("mapping_range_m", options.mapping_range_m);
-  require_positive("cell_m", options.cell_m);
+  check_field(options.cell_m >= kCellMin_m, "cell_m", options.cell_m, "0.01 or more and finite");
   require_positive("duration_max_s", options.duration_max_s);
   options.lidar.validate();
+  check_field(options.mapping_range_m > 0.0 && options.mapping_range_m <= options.lidar.range_max_m,
+              "mapping_range_m", options.mapping_range_m,
+              "positive and at most the lidar's range of " +
+                  format_number(options.lidar.range_max_m) + " m");
 }
 
-/// The start, once it and the options have been found good, before anything is built on them.
-Transform checked_start(const Scene& scene, const Transform& T_map_base,
-                        const ExplorationOptions& options) {
+/// The options, once they and the start have been found good, before anything is built on them.
+const ExplorationOptions& checked(const Scene& scene, const Transform& T_map_base,
+                                  const ExplorationOptions& options) {
   validate(options);
   require_free_start(scene, T_map_base, options);
-  return T_map_base;
+  return options;
 }
 
 /// Scans know distances to whole cells, and the base strays from its path by less than one.
@@ -54,13 +61,12 @@ double yaw_rad(const Transform& T_map_base) {
 
 PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
                        const ExplorationOptions& options)
-    : options_(options),
+    : options_(checked(scene, T_map_base, options)),
       lidar_(scene, options.lidar),
       z_map_m_(T_map_base.translation().z()),
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
-      motion_(options.base, checked_start(scene, T_map_base, options).translation().head<2>(),
-              yaw_rad(T_map_base)) {
+      motion_(options.base, T_map_base.translation().head<2>(), yaw_rad(T_map_base)) {
   record();
   scan();
 }

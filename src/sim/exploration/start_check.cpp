@@ -49,6 +49,10 @@ void require_free_start(const Scene& scene, const Transform& T_map_base,
                      format_number(position_map_m.y()) + ") " + what);
   };
   if (!T_map_base.matrix().allFinite()) refuse("is not finite");
+  constexpr double kFarthest_m = 10'000.0;  // the plane's cells are counted from the map's origin
+  if (position_map_m.cwiseAbs().maxCoeff() > kFarthest_m) {
+    refuse("is more than 10 km from the map's origin, check its unit");
+  }
   if (!T_map_base.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) {
     refuse("leans, a base explores the plane upright");
   }

@@ -19,7 +19,7 @@ template <class T>
 concept PlainValue = std::is_trivially_copyable_v<T> || std::is_same_v<T, Eigen::Vector3f>;
 
 /// Appends values to a text of bytes.
-class ByteWriter {
+class ArchiveWriter {
  public:
   template <PlainValue T>
   void operator()(const T& value) {
@@ -46,10 +46,10 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a ByteWriter wrote, in its order. Throws InputError where the bytes end early.
-class ByteReader {
+/// Reads what a ArchiveWriter wrote, in its order. Throws InputError where the bytes end early.
+class ArchiveReader {
  public:
-  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+  explicit ArchiveReader(std::string_view bytes) : rest_(bytes) {}
 
   template <PlainValue T>
   void operator()(T& value) {

@@ -67,7 +67,7 @@ bool are_unchanged(const std::vector<std::string>& files, const std::vector<File
 
 /// Throws InputError when the bytes are damaged.
 std::optional<BuiltWorld> unpack(std::string_view bytes, const std::string& expected_key) {
-  ByteReader header(bytes);
+  ArchiveReader header(bytes);
   std::array<char, 8> found_magic{};
   std::uint32_t found_version = 0;
   std::uint64_t found_checksum = 0;
@@ -77,7 +77,7 @@ std::optional<BuiltWorld> unpack(std::string_view bytes, const std::string& expe
   if (found_magic != kMagic || found_version != kFormatVersion) return std::nullopt;
   if (found_checksum != checksum(header.rest())) return std::nullopt;
 
-  ByteReader content(header.rest());
+  ArchiveReader content(header.rest());
   std::string key;
   std::vector<std::string> files;
   std::vector<FileStamp> stamps;
@@ -124,12 +124,12 @@ void WorldCache::store(const BuiltWorld& built, const std::set<fs::path>& files)
     names.push_back(fs::absolute(file).string());
     stamps.push_back(stamp_of(file));
   }
-  ByteWriter content;
+  ArchiveWriter content;
   content(key_);
   content(names);
   content(stamps);
   archive_world(content, built);
-  ByteWriter header;
+  ArchiveWriter header;
   header(kMagic);
   header(kFormatVersion);
   header(checksum(content.bytes()));

@@ -175,6 +175,13 @@ TEST_F(Office, NamesABadOption) {
   options = {};
   options.lidar.beams = 0;
   EXPECT_THAT(complaint(start_, options), HasSubstr("lidar.beams is 0"));
+  options = {};
+  options.base.radius_m = 1e6;
+  EXPECT_THAT(complaint(start_, options), HasSubstr("base.radius_m is 1e+06"));
+  options = {};
+  options.mapping_range_m = 101.0;
+  EXPECT_THAT(complaint(start_, options), HasSubstr("mapping_range_m is 101"));
+  EXPECT_THAT(complaint(base_pose(1e9, 0.0, 0.0, 0.0), {}), HasSubstr("10 km"));
 }
 
 TEST_F(Office, DrivesToGoalsInTurn) {
