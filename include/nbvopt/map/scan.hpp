@@ -21,11 +21,11 @@ struct Scan {
 
 /// What an insertion did.
 struct InsertResult {
-  std::vector<VoxelChange> changes;  ///< every voxel whose state or u changed, once
-  std::uint64_t points_used = 0;     ///< returns with D_min < d < D_max
-  std::uint64_t rays_cleared = 0;    ///< no-returns, and returns at or beyond D_max, cleared
-  std::uint64_t points_ignored = 0;  ///< nearer than D_min, not finite, or off the lattice
-  double information_gained = 0.0;   ///< what the map's Eq. 11 grew by
+  std::vector<VoxelChange> changes;        ///< every voxel whose state or u changed, once
+  std::uint64_t points_used = 0;           ///< returns with D_min < d < D_max
+  std::uint64_t rays_cleared = 0;          ///< no-returns, and returns at or beyond D_max, cleared
+  std::uint64_t points_ignored = 0;        ///< nearer than D_min, not finite, or off the lattice
+  double information_gained = 0.0;         ///< what the map's Eq. 11 grew by
   std::int64_t certain_voxels_gained = 0;  ///< what its occupied voxels with u < 1 grew by
 };
 
