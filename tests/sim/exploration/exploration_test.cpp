@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "box_mesh.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/box_mesh.hpp"
 
 namespace nbvopt {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
-#include "marked_grid.hpp"
 #include "sim/exploration/frontier_filter.hpp"
 #include "sim/exploration/frontier_trees.hpp"
 #include "sim/exploration/goal_assignment.hpp"
+#include "sim/exploration/marked_grid.hpp"
 
 namespace nbvopt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "marked_grid.hpp"
+#include "sim/exploration/marked_grid.hpp"
 
 namespace nbvopt {
 namespace {
