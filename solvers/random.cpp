@@ -4,18 +4,11 @@
 #include <random>
 
 #include "batch_search.hpp"
+#include "core/uniform.hpp"
 #include "stop_status.hpp"
 #include "unit_box.hpp"
 
 namespace nbvopt {
-namespace {
-
-/// Uniform in [0, 1). std::uniform_real_distribution differs between standard libraries.
-double uniform(std::mt19937_64& generator) {
-  return static_cast<double>(generator() >> 11) * 0x1p-53;
-}
-
-}  // namespace
 
 SolveResult RandomSolver::do_solve(const Objective& objective, const SolveRequest& request) const {
   const UnitBox unit_box(objective.box(), request.start);

@@ -4,25 +4,16 @@
 #include <limits>
 #include <numbers>
 
-#include "core/number.hpp"
-#include "nbvopt/core/error.hpp"
+#include "core/field_check.hpp"
 
 namespace nbvopt {
-namespace {
-
-[[noreturn]] void refuse(const std::string& field, double value, const std::string& rule) {
-  throw InputError("lidar." + field + " is " + format_number(value) + ", it must be " + rule);
-}
-
-}  // namespace
 
 void LidarOptions::validate() const {
-  if (beams < 1) refuse("beams", beams, "1 or more");
-  if (!(range_min_m >= 0.0)) refuse("range_min_m", range_min_m, "0 or more");
-  if (!(range_max_m > range_min_m && std::isfinite(range_max_m))) {
-    refuse("range_max_m", range_max_m, "greater than range_min_m and finite");
-  }
-  if (!std::isfinite(height_m)) refuse("height_m", height_m, "finite");
+  check_field(beams >= 1, "lidar.beams", beams, "1 or more");
+  check_field(range_min_m >= 0.0, "lidar.range_min_m", range_min_m, "0 or more");
+  check_field(range_max_m > range_min_m, "lidar.range_max_m", range_max_m,
+              "greater than range_min_m and finite");
+  check_field(true, "lidar.height_m", height_m, "finite");
 }
 
 SimulatedLidar::SimulatedLidar(const Scene& scene, const LidarOptions& options)

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <nanoflann.hpp>
 
+#include "core/uniform.hpp"
 #include "sim/exploration/cell_walk.hpp"
 
 namespace nbvopt {
@@ -10,11 +11,6 @@ namespace {
 
 constexpr double kEdge_m = 1.0;
 constexpr int kSamples = 50;  ///< for each tree, each time
-
-/// Uniform in [0, 1). std::uniform_real_distribution differs between standard libraries.
-double uniform(std::mt19937_64& generator) {
-  return static_cast<double>(generator() >> 11) * 0x1p-53;
-}
 
 }  // namespace
 

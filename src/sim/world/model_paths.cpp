@@ -1,23 +1,17 @@
 #include "sim/world/model_paths.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/world/lower_case.hpp"
 
 namespace nbvopt {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string folded(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool is_there(const fs::path& path) {
   std::error_code ignored;
@@ -44,8 +38,8 @@ std::optional<fs::path> descend(fs::path folder, const fs::path& relative) {
     }
     const std::vector<fs::path> candidates = entries(folder);
     const auto match = std::ranges::find(
-        candidates, folded(part.string()),
-        [](const fs::path& candidate) { return folded(candidate.filename().string()); });
+        candidates, lower_case(part.string()),
+        [](const fs::path& candidate) { return lower_case(candidate.filename().string()); });
     if (match == candidates.end()) return std::nullopt;
     folder = *match;
   }
@@ -82,7 +76,7 @@ const ModelPaths::FoldersByModel& ModelPaths::models_in(const fs::path& folder) 
   for (const fs::path& model : entries(folder)) {
     if (!is_there(model / "model.config")) continue;
     try {
-      found->second.emplace(folded(model_name(read_text_file(model / "model.config"))), model);
+      found->second.emplace(lower_case(model_name(read_text_file(model / "model.config"))), model);
     } catch (const InputError&) {
       // A model whose name cannot be read is still found by its folder's.
     }
@@ -94,7 +88,7 @@ std::optional<fs::path> ModelPaths::find_loosely(const fs::path& folder, const f
   if (const auto found = descend(folder, relative)) return found;
   const fs::path name = *relative.begin();
   const FoldersByModel& models = models_in(folder);
-  const auto model = models.find(folded(name.string()));
+  const auto model = models.find(lower_case(name.string()));
   if (model == models.end()) return std::nullopt;
   return descend(model->second, relative.lexically_relative(name));
 }

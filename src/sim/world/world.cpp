@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "core/input_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/world/append_mesh.hpp"
+#include "sim/world/lower_case.hpp"
 #include "sim/world/mesh_file.hpp"
 #include "sim/world/sdf_world.hpp"
 #include "sim/world/stray_parts.hpp"
@@ -26,9 +26,7 @@ namespace fs = std::filesystem;
 enum class FileKind { sdf, mesh };
 
 FileKind kind_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   constexpr std::array kSdfExtensions{".world", ".sdf"};
   constexpr std::array kMeshExtensions{".ply", ".obj", ".stl", ".dae"};
   if (std::ranges::count(kSdfExtensions, extension) > 0) return FileKind::sdf;
