@@ -9,20 +9,23 @@
 #include "cli/output.hpp"
 #include "cli/query.hpp"
 #include "cli/reproduce.hpp"
+#include "cli/serve.hpp"
 #include "cli/simulate.hpp"
+#include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/core/version.hpp"
+#include "server/versions.hpp"
 
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map, set_up_reproduce,
-                                  set_up_simulate};
+constexpr std::array kSubcommands{set_up_query,     set_up_evaluate, set_up_map,
+                                  set_up_reproduce, set_up_serve,    set_up_simulate};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {
   CLI::App app("Where should a camera on a pan / tilt / telescopic mast look next?", "nbvopt");
-  app.set_version_flag("--version", version_report(), "print the versions that decide answers");
+  app.set_version_flag("--version", server_version_report(),
+                       "print the versions of all that it stands on");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 answered, 2 wrong command line, 3 unusable file or value, 4 internal error.\n"
@@ -53,7 +56,11 @@ int main(int argc, char** argv) {
     return fail(ExitCode::usage_error, std::string(error.what()) + " (nbvopt --help tells more)");
   } catch (const UsageError& error) {
     return fail(ExitCode::usage_error, error.what());
-  } catch (const InputError& error) {
+  } catch (const ServerError& error) {
+    return fail(error.kind() == ServerErrorKind::internal ? ExitCode::internal_error
+                                                          : ExitCode::input_error,
+                error.what());
+  } catch (const Error& error) {
     return fail(ExitCode::input_error, error.what());
   } catch (const std::exception& error) {
     return fail(ExitCode::internal_error, std::string("internal error: ") + error.what());

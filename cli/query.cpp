@@ -1,9 +1,11 @@
 #include "cli/query.hpp"
 
 #include <CLI/Option.hpp>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cli/arguments.hpp"
@@ -15,6 +17,7 @@
 #include "cli/view_arguments.hpp"
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
+#include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
@@ -26,7 +29,9 @@ namespace {
 constexpr std::int64_t kMaxWhole = std::numeric_limits<std::int64_t>::max();
 
 struct QueryOptions {
-  std::string map_file;
+  std::string map_file;  ///< empty: the server's
+  std::string server;    ///< its address; empty: the map file's
+  ClientTls tls;
   Transform T_map_base = Transform::Identity();
   BaseTwist base_twist;
   double pan_rad = 0.0;
@@ -48,6 +53,12 @@ struct QueryOptions {
 };
 
 void check(const QueryOptions& options) {
+  if (options.map_file.empty() == options.server.empty()) {
+    throw UsageError("name a MAP, or a server that holds one by --server, and not both");
+  }
+  if (!options.server.empty() && !options.height_m) {
+    throw UsageError("--height is needed with --server: the mast is the server's");
+  }
   if (options.motion_time_s < 0.0) {
     throw InputError("--motion-time is " + format_number(options.motion_time_s) +
                      " s, it must be 0 (no limit) or more");
@@ -80,12 +91,12 @@ bool wants_landscape(const QueryOptions& options) {
   return !options.landscape_file.empty() || !options.plot_file.empty();
 }
 
-PlanRequest request_of(const QueryOptions& options, const Robot& robot) {
+/// `lowest_m` is where the mast is when nothing is said.
+PlanRequest request_of(const QueryOptions& options, double lowest_m) {
   PlanRequest request;
   request.T_map_base = options.T_map_base;
   request.base_twist = options.base_twist;
-  request.joints = {options.pan_rad, options.tilt_rad,
-                    options.height_m.value_or(robot.mast.height_min_m)};
+  request.joints = {options.pan_rad, options.tilt_rad, options.height_m.value_or(lowest_m)};
   request.motion_time_s = options.motion_time_s;
   request.min_gain = options.min_gain;
   request.seed = static_cast<std::uint64_t>(options.seed);
@@ -119,10 +130,21 @@ void write_explanations(const QueryOptions& options, const Robot& robot, const V
   }
 }
 
-void run_query(const QueryOptions& options) {
-  check(options);
+QueryAnswer ask_server(const QueryOptions& options) {
+  PlannerClient client(options.server, options.tls);
+  QueryAnswer answer;
+  answer.request = request_of(options, *options.height_m);
+  const Stopwatch calling;
+  RemotePlan plan = client.plan(answer.request, solver_choice(options.solver));
+  answer.remote = {.server = options.server, .call_ms = calling.elapsed_ms()};
+  answer.counting = plan.counting;
+  answer.result = std::move(plan.result);
+  return answer;
+}
+
+QueryAnswer search_map(const QueryOptions& options) {
   const Robot robot = robot_of(options);
-  const auto solver = make_solver(options.solver);
+  const auto solver = make_solver(solver_choice(options.solver));
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
@@ -131,7 +153,8 @@ void run_query(const QueryOptions& options) {
   answer.evaluator = options.view.evaluator;
   answer.counting = robot.sensor.counting;
   answer.map_load_ms = loading.elapsed_ms();
-  answer.request = request_of(options, robot);  // its time limit counts from here
+  // Its time limit counts from here.
+  answer.request = request_of(options, robot.mast.height_min_m);
   std::vector<std::string> warnings;
   answer.request.joints = Mast(robot.mast).clamped(answer.request.joints, warnings);
 
@@ -144,11 +167,16 @@ void run_query(const QueryOptions& options) {
   answer.grid_ms = filling.elapsed_ms();
   answer.result = planner.plan(answer.request, *solver);
   answer.result.warnings.insert(answer.result.warnings.begin(), warnings.begin(), warnings.end());
+  write_explanations(options, robot, *grid, *evaluator, answer);
+  return answer;
+}
 
+void run_query(const QueryOptions& options) {
+  check(options);
+  const QueryAnswer answer = options.server.empty() ? search_map(options) : ask_server(options);
   if (!options.json_file.empty()) {
     write_file_atomically(options.json_file, to_text(to_json(answer)));
   }
-  write_explanations(options, robot, *grid, *evaluator, answer);
   if (options.json) {
     print_answer(to_text(to_json(answer)));
   } else {
@@ -159,7 +187,7 @@ void run_query(const QueryOptions& options) {
 
 void add_situation(CLI::App& query, QueryOptions& options) {
   query.option_defaults()->group("Where the robot is");
-  query.add_option("MAP", options.map_file, "a map: .bt or .ot")->required();
+  query.add_option("MAP", options.map_file, "a map: .bt or .ot; not with --server");
   query
       .add_option_function<std::string>(
           "--base",
@@ -230,6 +258,22 @@ void add_outputs(CLI::App& query, QueryOptions& options) {
       ->type_name("FILE");
 }
 
+void add_server(CLI::App& query, QueryOptions& options) {
+  query.option_defaults()->group("Asking a server (nbvopt serve) that holds map and robot");
+  CLI::Option* server =
+      query.add_option("--server", options.server, "HOST:PORT or unix:PATH")->type_name("ADDRESS");
+  const auto add_pem = [&](const char* name, std::filesystem::path& file, const char* description) {
+    query.add_option(name, file, description)->type_name("PEM")->needs(server);
+  };
+  add_pem("--tls-ca", options.tls.server_ca, "who signs the server's certificate");
+  add_pem("--tls-cert", options.tls.certificate, "the caller's certificate");
+  add_pem("--tls-key", options.tls.key, "its private key");
+  for (const char* ours : {"--robot", "--threads", "--evaluator", "--counting",
+                           "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
+    query.get_option(ours)->excludes(server);
+  }
+}
+
 }  // namespace
 
 void set_up_query(CLI::App& app) {
@@ -239,6 +283,7 @@ void set_up_query(CLI::App& app) {
   add_search(*query, *options);
   add_judgement(*query, *options);
   add_outputs(*query, *options);
+  add_server(*query, *options);
   std::string solvers;
   for (const std::string& name : solver_names()) solvers += (solvers.empty() ? "" : ", ") + name;
   query->footer(

@@ -1,5 +1,6 @@
 #include "cli/query_answer.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -58,6 +59,20 @@ std::string evaluation_count(const PlanResult& result) {
   return text;
 }
 
+/// What was spent besides the search.
+std::string cost(const QueryAnswer& answer) {
+  std::array<char, 96> text{};
+  if (answer.remote) {
+    std::snprintf(text.data(), text.size(), "map version %llu, call %.1f ms",
+                  static_cast<unsigned long long>(answer.result.map_version),
+                  answer.remote->call_ms);
+  } else {
+    std::snprintf(text.data(), text.size(), "map read %.1f ms, grid %.1f ms", answer.map_load_ms,
+                  answer.grid_ms);
+  }
+  return text.data();
+}
+
 }  // namespace
 
 Json to_json(const QueryAnswer& answer) {
@@ -78,8 +93,6 @@ Json to_json(const QueryAnswer& answer) {
             {"evaluations", result.evaluations},
             {"surrogate_evaluations", result.surrogate_evaluations},
             {"time_ms", result.search_time_ms},
-            {"map_load_ms", answer.map_load_ms},
-            {"grid_ms", answer.grid_ms},
             {"move_time_s", result.move_time_s},
             {"solver", result.solver},
             {"seed", result.seed},
@@ -90,6 +103,14 @@ Json to_json(const QueryAnswer& answer) {
             {"pose", pose_json(result.T_map_sensor)}};
   if (!answer.request.base_twist.is_zero()) {
     json["base_on_arrival"] = base_json(result.T_map_base);
+  }
+  if (answer.remote) {
+    json["server"] = answer.remote->server;
+    json["call_ms"] = answer.remote->call_ms;
+    json["map_version"] = result.map_version;
+  } else {
+    json["map_load_ms"] = answer.map_load_ms;
+    json["grid_ms"] = answer.grid_ms;
   }
   return json;
 }
@@ -119,10 +140,9 @@ std::string to_text(const QueryAnswer& answer) {
     text += line("base    at %.3f, %.3f, %.3f m in the map, yaw %.3f rad, when the joints arrive",
                  base_m.x(), base_m.y(), base_m.z(), yaw_rad(result.T_map_base));
   }
-  text += line("took    %.1f ms for %s (%s, %s, %s); map read %.1f ms, grid %.1f ms",
-               result.search_time_ms, evaluation_count(result).c_str(), result.solver.c_str(),
-               answer.evaluator.c_str(), to_string(answer.counting).c_str(), answer.map_load_ms,
-               answer.grid_ms);
+  text += line("took    %.1f ms for %s (%s, %s, %s); %s", result.search_time_ms,
+               evaluation_count(result).c_str(), result.solver.c_str(), answer.evaluator.c_str(),
+               to_string(answer.counting).c_str(), cost(answer).c_str());
   return text;
 }
 

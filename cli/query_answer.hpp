@@ -1,6 +1,7 @@
 // The answer of a query, for machines and for people.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/output.hpp"
@@ -8,12 +9,19 @@
 
 namespace nbvopt {
 
+/// Where an answer came from that another process computed.
+struct RemoteCall {
+  std::string server;    ///< its address
+  double call_ms = 0.0;  ///< from the question to the answer
+};
+
 /// What the planner said, and what it cost to get there.
 struct QueryAnswer {
   PlanRequest request;
   PlanResult result;
-  std::string evaluator;
+  std::string evaluator = "exact";
   Counting counting = Counting::per_ray;
+  std::optional<RemoteCall> remote;  ///< none: searched here, at the cost below
   double map_load_ms = 0.0;
   double grid_ms = 0.0;  ///< making the reachable bricks ready
 };

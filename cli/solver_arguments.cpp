@@ -6,14 +6,12 @@
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/grid_coordinates.hpp"
-#include "nbvopt/solver/registry.hpp"
 #include "nbvopt/solver/strategy.hpp"
 
 namespace nbvopt {
 namespace {
 
 constexpr const char* kDefaultSolver = "auto";
-constexpr const char* kNoStage = "none";
 
 void check_step(const std::string& option, double step, const std::string& unit) {
   if (step >= 0.0) return;
@@ -21,53 +19,35 @@ void check_step(const std::string& option, double step, const std::string& unit)
                    ", it must be 0 (keeps the joint) or more");
 }
 
-void set_stage(std::string& stage, const std::string& option,
-               const std::optional<std::string>& name) {
-  if (!name) return;
-  if (name->empty()) throw UsageError(option + " is empty: name a solver or none");
-  stage = *name == kNoStage ? "" : *name;
-}
-
 }  // namespace
 
 void add_solver_arguments(CLI::App& app, SolverArguments& arguments) {
-  app.add_option("--solver", arguments.solver, "how to search")
+  app.add_option("--solver", arguments.choice.solver, "how to search")
       ->type_name("NAME")
-      ->default_str(kDefaultSolver);
+      ->default_str("auto");
   const StrategyOptions stages;
   const auto add_stage = [&app](const char* name, std::optional<std::string>& target,
                                 const std::string& stage, const char* description) {
     app.add_option(name, target, description)->type_name("NAME")->default_str(stage);
   };
-  add_stage("--global", arguments.global, stages.global,
+  add_stage("--global", arguments.choice.global, stages.global,
             "compose a search: the stage that looks everywhere on the surrogate, or none");
-  add_stage("--local", arguments.local, stages.local,
+  add_stage("--local", arguments.choice.local, stages.local,
             "compose a search: the stage that climbs from there on the surrogate, or none");
-  add_stage("--polish", arguments.polish, stages.polish,
+  add_stage("--polish", arguments.choice.polish, stages.polish,
             "compose a search: the last stage, on the gain itself, or none");
   add_number(app, "--step-pan", arguments.step_pan_rad, "RAD", "of grid; 0 keeps the pan");
   add_number(app, "--step-tilt", arguments.step_tilt_rad, "RAD", "of grid; 0 keeps the tilt");
   add_number(app, "--step-height", arguments.step_height_m, "M", "of grid; 0 keeps the height");
 }
 
-std::unique_ptr<Solver> make_solver(const SolverArguments& arguments) {
+SolverChoice solver_choice(const SolverArguments& arguments) {
   check_step("--step-pan", arguments.step_pan_rad, " rad");
   check_step("--step-tilt", arguments.step_tilt_rad, " rad");
   check_step("--step-height", arguments.step_height_m, " m");
-  if (!arguments.global && !arguments.local && !arguments.polish) {
-    return make_solver(
-        arguments.solver.value_or(kDefaultSolver),
-        {.grid_steps = {arguments.step_pan_rad, arguments.step_tilt_rad, arguments.step_height_m}});
-  }
-  if (arguments.solver) {
-    throw UsageError(
-        "--solver names a whole search and --global, --local, --polish compose one: give either");
-  }
-  StrategyOptions stages;
-  set_stage(stages.global, "--global", arguments.global);
-  set_stage(stages.local, "--local", arguments.local);
-  set_stage(stages.polish, "--polish", arguments.polish);
-  return make_strategy(stages);
+  SolverChoice choice = arguments.choice;
+  choice.grid_steps = {arguments.step_pan_rad, arguments.step_tilt_rad, arguments.step_height_m};
+  return choice;
 }
 
 std::vector<double> candidate_pans(const SolverArguments& arguments, const JointBox& box) {

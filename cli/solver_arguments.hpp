@@ -2,21 +2,15 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "nbvopt/mast/mast.hpp"
-#include "nbvopt/solver/solver.hpp"
+#include "nbvopt/solver/solver_choice.hpp"
 
 namespace nbvopt {
 
 struct SolverArguments {
-  std::optional<std::string> solver;  ///< none: the default, or the stages below
-  std::optional<std::string> global;  ///< the stages of a strategy; none: as in auto
-  std::optional<std::string> local;
-  std::optional<std::string> polish;
+  SolverChoice choice;  ///< without the steps
   double step_pan_rad = 0.8;
   double step_tilt_rad = 0.0;
   double step_height_m = 0.0;
@@ -24,9 +18,8 @@ struct SolverArguments {
 
 void add_solver_arguments(CLI::App& app, SolverArguments& arguments);
 
-/// The solver that was asked for. Throws UsageError when it is not known or named in two ways, and
-/// InputError for a negative step.
-std::unique_ptr<Solver> make_solver(const SolverArguments& arguments);
+/// The search that was asked for. Throws InputError for a negative step.
+SolverChoice solver_choice(const SolverArguments& arguments);
 
 /// The pans of the paper's grid with the step that was asked for (Algorithm 2); none when they lie
 /// too close to be told apart.

@@ -13,3 +13,7 @@ find_package(Ceres 2.1 REQUIRED CONFIG)
 find_package(embree 3.13 REQUIRED CONFIG)
 find_package(sdformat12 12.3 REQUIRED CONFIG)
 find_package(assimp 5.2 REQUIRED CONFIG)
+# The server's and its clients'.
+find_package(Protobuf 3.21 REQUIRED)
+find_package(gRPC 1.51 REQUIRED CONFIG)
+find_package(spdlog 1.10 REQUIRED CONFIG)

@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "core/descriptor.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -22,28 +23,6 @@ namespace fs = std::filesystem;
 }
 
 std::string reason() { return std::generic_category().message(errno); }
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-
-  int get() const { return descriptor_; }
-  bool is_open() const { return descriptor_ >= 0; }
-
-  /// Full disks of network file systems show only here.
-  bool close() {
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    return descriptor < 0 || ::close(descriptor) == 0;
-  }
-
- private:
-  int descriptor_;
-};
 
 /// Removes a file unless the caller keeps it.
 class RemovedUnlessKept {
@@ -106,6 +85,13 @@ int create_beside(const fs::path& path, const fs::path& target, std::string& tem
   return descriptor;
 }
 
+/// The new name, too, outlives a loss of power from here on. Not every file system can say so.
+void sync_folder(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.is_open()) ::fsync(descriptor.get());
+}
+
 }  // namespace
 
 void require_writable(const fs::path& path) {
@@ -129,6 +115,7 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
     refuse(path, reason());
   }
   guard.keep();
+  sync_folder(target);
 }
 
 }  // namespace nbvopt

@@ -1,15 +1,14 @@
 #include <png.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <istream>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/scan_file.hpp"
 
@@ -47,21 +46,24 @@ class PngRows {
   }
 
   bool read_row() {
-    row_.resize(std::size_t{width()} * 2);
-    return read_row_bytes();
+    bytes_.resize(std::size_t{width()} * 2);
+    if (!read_row_bytes()) return false;
+    depths_.resize(width());
+    for (std::size_t i = 0; i < depths_.size(); ++i) {  // PNG stores the high byte first
+      depths_[i] = static_cast<std::uint16_t>(bytes_[2 * i] << 8 | bytes_[2 * i + 1]);
+    }
+    return true;
   }
 
-  /// A pixel of the row that was read last; PNG stores the high byte first.
-  std::uint16_t depth(std::uint32_t column) const {
-    return static_cast<std::uint16_t>(row_[2 * column] << 8 | row_[2 * column + 1]);
-  }
+  /// The row that was read last.
+  std::span<const std::uint16_t> row() const { return depths_; }
 
   const char* message() const { return message_.data(); }
 
  private:
   bool read_row_bytes() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
-    png_read_row(png_, row_.data(), nullptr);
+    png_read_row(png_, bytes_.data(), nullptr);
     return true;
   }
 
@@ -82,37 +84,14 @@ class PngRows {
   std::istream& in_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  std::vector<std::uint8_t> row_;
+  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint16_t> depths_;
   std::array<char, 128> message_{};
 };
 
-void check_positive(const char* field, double value) {
-  if (!(value > 0.0) || !std::isfinite(value)) {
-    throw InputError(std::string("depth image: ") + field + " is " + format_number(value) +
-                     ", it must be positive and finite");
-  }
-}
-
-void check_finite(const char* field, double value) {
-  if (!std::isfinite(value)) {
-    throw InputError(std::string("depth image: ") + field + " is " + format_number(value) +
-                     ", it must be finite");
-  }
-}
-
 }  // namespace
 
-void DepthImageOptions::validate() const {
-  check_positive("fx_px", fx_px);
-  check_positive("fy_px", fy_px);
-  check_finite("cx_px", cx_px);
-  check_finite("cy_px", cy_px);
-  check_positive("depth_scale_m", depth_scale_m);
-}
-
 Scan read_depth_png(std::istream& in, const std::string& name, const DepthImageOptions& options) {
-  constexpr std::uint16_t kNotKnown = 0;
-  constexpr std::uint16_t kNothingInRange = 65535;
   options.validate();
   PngRows image(in);
   const auto refuse = [&name](const std::string& what) { throw InputError(name + ": " + what); };
@@ -123,17 +102,7 @@ Scan read_depth_png(std::istream& in, const std::string& name, const DepthImageO
   Scan scan;
   for (std::uint32_t v = 0; v < image.height(); ++v) {
     if (!image.read_row()) refuse(std::string("the PNG cannot be read: ") + image.message());
-    for (std::uint32_t u = 0; u < image.width(); ++u) {
-      const std::uint16_t depth = image.depth(u);
-      if (depth == kNotKnown) continue;
-      const Eigen::Vector3d direction((u - options.cx_px) / options.fx_px,
-                                      (v - options.cy_px) / options.fy_px, 1.0);
-      if (depth == kNothingInRange) {
-        scan.no_returns.push_back(direction.cast<float>());
-      } else {
-        scan.points_m.push_back((direction * (depth * options.depth_scale_m)).cast<float>());
-      }
-    }
+    append_depth_row(image.row(), v, options, scan);
   }
   return scan;
 }

@@ -148,7 +148,9 @@ std::string ply_file(const UncertaintyMap& map) {
   return bytes;
 }
 
-std::string file_of(const UncertaintyMap& map, MapFormat format) {
+}  // namespace
+
+std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
   switch (format) {
     case MapFormat::uncertainty_ot:
       return uncertainty_file(map.tree());
@@ -162,10 +164,8 @@ std::string file_of(const UncertaintyMap& map, MapFormat format) {
   return {};
 }
 
-}  // namespace
-
 void write_map(const UncertaintyMap& map, const std::filesystem::path& path, MapFormat format) {
-  write_file_atomically(path, file_of(map, format));
+  write_file_atomically(path, map_file_bytes(map, format));
 }
 
 }  // namespace nbvopt

@@ -68,6 +68,20 @@ void grow_known_box(const UncertaintyOcTree& tree, const Node& node, VoxelKey or
   }
 }
 
+constexpr int kBrickDepth = 11;  // whose nodes cover 32 voxels a side
+
+std::uint64_t bricks_under(const UncertaintyOcTree& tree, const Node& node, int depth) {
+  if (depth == kBrickDepth) return 1;
+  if (!tree.nodeHasChildren(&node)) return std::uint64_t{1} << 3 * (kBrickDepth - depth);
+  std::uint64_t bricks = 0;
+  for (int i = 0; i < 8; ++i) {
+    if (tree.nodeChildExists(&node, i)) {
+      bricks += bricks_under(tree, *tree.getNodeChild(&node, i), depth + 1);
+    }
+  }
+  return bricks;
+}
+
 bool any_certain_leaf(const UncertaintyOcTree& tree, const Node& node) {
   if (!tree.isNodeOccupied(&node)) return false;  // an inner node holds its children's maximum
   if (!tree.nodeHasChildren(&node)) {
@@ -149,6 +163,10 @@ std::optional<KeyBox> UncertaintyMap::known_box() const {
   std::optional<KeyBox> box;
   if (tree_->getRoot() != nullptr) grow_known_box(*tree_, *tree_->getRoot(), {}, 0, box);
   return box;
+}
+
+std::uint64_t UncertaintyMap::known_bricks() const {
+  return tree_->getRoot() == nullptr ? 0 : bricks_under(*tree_, *tree_->getRoot(), 0);
 }
 
 bool UncertaintyMap::has_occupied() const {

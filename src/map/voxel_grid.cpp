@@ -15,18 +15,19 @@ VoxelGrid::VoxelGrid(const Lattice& lattice, std::unique_ptr<BrickTable> table,
 
 VoxelGrid::~VoxelGrid() = default;
 
-std::shared_ptr<VoxelGrid> VoxelGrid::of(const UncertaintyMap& map) {
+std::shared_ptr<VoxelGrid> VoxelGrid::of(const UncertaintyMap& map, std::uint64_t version) {
   std::shared_ptr<VoxelGrid> grid(
-      new VoxelGrid(map.lattice(), std::make_unique<BrickTable>(map.tree()), 1));
+      new VoxelGrid(map.lattice(), std::make_unique<BrickTable>(map.tree()), version));
   grid->carries_uncertainty_ = map.carries_uncertainty();
   grid->has_occupied_ = map.has_occupied();
   return grid;
 }
 
-std::shared_ptr<const VoxelGrid> VoxelGrid::lazy(const UncertaintyMap& map) { return of(map); }
+std::shared_ptr<const VoxelGrid> VoxelGrid::lazy(const UncertaintyMap& map) { return of(map, 1); }
 
-std::shared_ptr<const VoxelGrid> VoxelGrid::whole(const UncertaintyMap& map) {
-  const std::shared_ptr<VoxelGrid> grid = of(map);
+std::shared_ptr<const VoxelGrid> VoxelGrid::whole(const UncertaintyMap& map,
+                                                  std::uint64_t version) {
+  const std::shared_ptr<VoxelGrid> grid = of(map, version);
   grid->table_->read_all();
   return grid;
 }

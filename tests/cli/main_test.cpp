@@ -7,11 +7,12 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
-TEST(Main, VersionIsTheLibrarysReport) {
+TEST(Main, VersionTellsAllThatItStandsOn) {
   const ProcessResult result = nbvopt_run({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, version_report() + "\n");
+  EXPECT_THAT(result.out, AllOf(StartsWith(version_report()), HasSubstr("gRPC 1.")));
   EXPECT_EQ(result.err, "");
 }
 
@@ -23,7 +24,7 @@ TEST(Main, HelpTellsExitCodesAndSubcommands) {
 }
 
 TEST(Main, EverySubcommandExplainsItself) {
-  for (const char* subcommand : {"query", "evaluate", "map"}) {
+  for (const char* subcommand : {"query", "evaluate", "map", "serve"}) {
     const ProcessResult result = nbvopt_run({subcommand, "--help"});
     EXPECT_EQ(result.exit_code, 0) << subcommand;
     EXPECT_THAT(result.out, HasSubstr(std::string("Usage: nbvopt ") + subcommand));
@@ -34,7 +35,7 @@ TEST(Main, WrongCommandLinesAreUsageErrors) {
   expect_refusal(nbvopt_run({}), 2, "subcommand");
   expect_refusal(nbvopt_run({"fly"}), 2, "subcommand");
   expect_refusal(nbvopt_run({"--fly"}), 2, "subcommand");
-  expect_refusal(nbvopt_run({"query"}), 2, "MAP");
+  expect_refusal(nbvopt_run({"query"}), 2, "--base");
   expect_refusal(nbvopt_run({"evaluate", "m.ot"}), 2, "--poses");
   expect_refusal(nbvopt_run({"evaluate", "m.ot", "--poses", "-", "--fly\nhigh"}), 2, "--fly");
 }

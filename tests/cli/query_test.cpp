@@ -249,13 +249,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"--global", "magic"}, 2, "global stage: solver \"magic\""},
         Refusal{{"--local", "magic"}, 2, "local stage: solver \"magic\""},
         Refusal{{"--polish", "magic"}, 2, "polish stage: solver \"magic\""},
-        Refusal{{"--local", ""}, 2, "--local is empty"},
+        Refusal{{"--local", ""}, 2, "local stage is empty"},
         Refusal{{"--polish", "grid"}, 2, "polish stage: solver grid"},
         Refusal{{"--global", "none", "--local", "none", "--polish", "none"},
                 2,
                 "every stage is left out"},
-        Refusal{
-            {"--solver", "grid", "--polish", "nlopt:sbplx"}, 2, "--solver names a whole search"},
+        Refusal{{"--solver", "grid", "--polish", "nlopt:sbplx"}, 2, "solver names a whole search"},
         Refusal{{"--step-pan", "-1"}, 3, "--step-pan"},
         Refusal{{"--time-limit-ms", "1e18"}, 3, "--time-limit-ms"},
         Refusal{{"another.ot"}, 2, "another.ot"}));

@@ -28,6 +28,9 @@ UncertaintyMap read_map(const std::filesystem::path& path);
 /// The same from a stream; `name` stands for the file in messages.
 UncertaintyMap read_map(std::istream& in, const std::string& name);
 
+/// The bytes of such a file.
+std::string map_file_bytes(const UncertaintyMap& map, MapFormat format);
+
 /// Writes a map atomically: a temporary file beside `path`, then a rename. Throws InputError when
 /// the folder is missing or not writable, or the disk is full; `path` is then untouched.
 void write_map(const UncertaintyMap& map, const std::filesystem::path& path, MapFormat format);

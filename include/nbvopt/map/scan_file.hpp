@@ -3,25 +3,13 @@
 
 #include <filesystem>
 #include <iosfwd>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "nbvopt/map/depth_image.hpp"
 #include "nbvopt/map/scan.hpp"
 
 namespace nbvopt {
-
-/// How to turn a depth image's pixels into points. The centre of the top left pixel is (0, 0).
-struct DepthImageOptions {
-  double fx_px = std::numeric_limits<double>::quiet_NaN();
-  double fy_px = std::numeric_limits<double>::quiet_NaN();
-  double cx_px = std::numeric_limits<double>::quiet_NaN();
-  double cy_px = std::numeric_limits<double>::quiet_NaN();
-  double depth_scale_m = 0.001;  ///< metres along the optical axis a unit of the image
-
-  /// Throws InputError that names the first bad field with its value.
-  void validate() const;
-};
 
 /// Reads a scan; the content decides the format, not the file's name. A depth image needs
 /// `depth_image`, point clouds do not use it. Points that are not finite are kept, for insertion

@@ -70,6 +70,9 @@ class UncertaintyMap {
   /// The smallest box that holds every known voxel; none when the map is empty.
   std::optional<KeyBox> known_box() const;
 
+  /// How many bricks of 32 x 32 x 32 voxels hold anything known: what a whole VoxelGrid takes.
+  std::uint64_t known_bricks() const;
+
   /// Whether any occupied voxel carries u < 1. Plain OctoMaps carry none.
   bool carries_uncertainty() const;
 

@@ -25,13 +25,14 @@ class VoxelGrid {
   static std::shared_ptr<const VoxelGrid> lazy(const UncertaintyMap& map);
 
   /// A grid with all its bricks read now; the map may change or go afterwards: for a growing map.
-  static std::shared_ptr<const VoxelGrid> whole(const UncertaintyMap& map);
+  static std::shared_ptr<const VoxelGrid> whole(const UncertaintyMap& map,
+                                                std::uint64_t version = 1);
 
   /// The next version: this grid with the changes that a scan made. Bricks without a change, and
   /// away from any change between free and not free, are shared. Throws UsageError on a lazy grid.
   std::shared_ptr<const VoxelGrid> updated(std::span<const VoxelChange> changes) const;
 
-  /// 1 for a grid made from a map, one more a call to updated().
+  /// 1 for a grid made from a map unless said otherwise, one more a call to updated().
   std::uint64_t version() const { return version_; }
 
   const Lattice& lattice() const { return lattice_; }
@@ -67,7 +68,7 @@ class VoxelGrid {
   ~VoxelGrid();
 
  private:
-  static std::shared_ptr<VoxelGrid> of(const UncertaintyMap& map);
+  static std::shared_ptr<VoxelGrid> of(const UncertaintyMap& map, std::uint64_t version);
 
   VoxelGrid(const Lattice& lattice, std::unique_ptr<detail::BrickTable> table,
             std::uint64_t version);

@@ -1,0 +1,163 @@
+#include "cli/serve.hpp"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "cli/arguments.hpp"
+#include "cli/output.hpp"
+#include "cli/view_arguments.hpp"
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+#include "server/server.hpp"
+
+namespace nbvopt {
+namespace {
+
+struct ServeOptions {
+  RobotArguments robot;
+  ServerOptions server;
+  double snapshot_every_s = 10.0;
+  std::string log_level = "info";
+};
+
+/// The signals that end the server, held back in all threads that are started from now on.
+class EndSignals {
+ public:
+  EndSignals() {
+    ::sigemptyset(&signals_);
+    ::sigaddset(&signals_, SIGTERM);
+    ::sigaddset(&signals_, SIGINT);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+    ::signal(SIGPIPE, SIG_IGN);  // a log that nobody reads any more
+    ::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing it
+  }
+
+  /// Waits for one of them.
+  int wait() const {
+    int signal = 0;
+    ::sigwait(&signals_, &signal);
+    return signal;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+/// One event a line on standard error: time, level, then key=value pairs.
+void set_up_log(const std::string& level) {
+  auto log = spdlog::stderr_logger_mt("nbvopt");
+  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z level=%l %v");
+  log->set_level(spdlog::level::from_str(level));
+  spdlog::set_default_logger(std::move(log));
+}
+
+void check_positive(const char* option, double value, const char* unit) {
+  if (value > 0.0) return;
+  throw InputError(std::string(option) + " is " + format_number(value) + unit +
+                   ", it must be positive");
+}
+
+void run_serve(ServeOptions& options) {
+  constexpr double kLongest_s = 1e9;
+  ServerOptions& server_options = options.server;
+  check_positive("--snapshot-every", options.snapshot_every_s, " s");
+  check_positive("--max-compute-ms", server_options.limits.max_compute_ms, "");
+  check_positive("--max-map-extent", server_options.limits.max_map_extent_m, " m");
+  check_positive("--min-resolution", server_options.limits.min_resolution_m, " m");
+  server_options.snapshot_every =
+      std::chrono::milliseconds(std::llround(std::min(options.snapshot_every_s, kLongest_s) * 1e3));
+  server_options.robot = make_robot(options.robot);
+  server_options.planning_threads = options.robot.threads > 0
+                                        ? static_cast<std::size_t>(options.robot.threads)
+                                        : std::max(1U, std::thread::hardware_concurrency());
+  const ThreadLimit thread_limit(options.robot);
+  const EndSignals signals;
+  set_up_log(options.log_level);
+  Server server(server_options);
+  print_answer("listening on " + server.address() + "\n");
+  const int signal = signals.wait();
+  spdlog::info("event=stopping signal={}", signal);
+  server.stop();
+}
+
+void add_map(CLI::App& serve, ServerOptions& options) {
+  serve.option_defaults()->group("The map");
+  serve.add_option("MAP", options.map_file, "the map to start with: .bt or .ot")->type_name("FILE");
+  add_number(serve, "--create", options.new_resolution_m, "M",
+             "without a MAP: start with an empty one, with voxels of this size");
+  serve
+      .add_option("--snapshot", options.snapshot_file,
+                  "keep the map in this file (.ot); what is in there already wins over MAP")
+      ->type_name("FILE");
+  serve
+      .add_option("--data-dir", options.data_folder,
+                  "the folder whose maps clients may load and save [none]")
+      ->type_name("DIR");
+}
+
+void add_limits(CLI::App& serve, ServerLimits& limits) {
+  constexpr std::int64_t kMost = 1'000'000'000;
+  serve.option_defaults()->group("Limits");
+  add_whole_number(serve, "--max-message-mib", limits.max_message_mib, 1, 1024,
+                   "of a message that comes in");
+  add_whole_number(serve, "--max-scan-points", limits.max_scan_points, 1, kMost, "of a scan");
+  add_whole_number(serve, "--max-views", limits.max_views, 1, kMost, "of a call of Evaluate");
+  add_number(serve, "--max-map-extent", limits.max_map_extent_m, "M", "the map's longest side");
+  add_number(serve, "--min-resolution", limits.min_resolution_m, "M", "the map's smallest voxels");
+  add_whole_number(serve, "--max-map-bricks", limits.max_map_bricks, 1, kMost,
+                   "of 32 x 32 x 32 voxels that a map to load may know of, 45 kB each");
+  add_number(serve, "--max-compute-ms", limits.max_compute_ms, "MS",
+             "of a plan or a call of Evaluate");
+  add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,
+                   "calls that wait for a thread; more are refused with RESOURCE_EXHAUSTED");
+}
+
+void add_access(CLI::App& serve, ServerOptions& options) {
+  serve.option_defaults()->group("Who may call");
+  serve
+      .add_option("--listen", options.listen,
+                  "HOST:PORT (port 0: one that is free) or unix:PATH; other addresses than those "
+                  "of this machine need the certificates below")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  const auto add_pem = [&serve](const char* name, std::string& file, const char* description) {
+    serve.add_option(name, file, description)->type_name("PEM");
+  };
+  add_pem("--tls-cert", options.tls.certificate, "the server's certificate");
+  add_pem("--tls-key", options.tls.key, "its private key");
+  add_pem("--tls-client-ca", options.tls.client_ca, "who signs the certificates of callers");
+}
+
+}  // namespace
+
+void set_up_serve(CLI::App& app) {
+  auto options = std::make_shared<ServeOptions>();
+  CLI::App* serve = app.add_subcommand("serve", "A planning server for a robot's driver (gRPC)");
+  add_map(*serve, options->server);
+  add_number(*serve, "--snapshot-every", options->snapshot_every_s, "SECONDS",
+             "how often, while the map changes");
+  add_access(*serve, options->server);
+  serve->option_defaults()->group("How it works");
+  add_robot_arguments(*serve, options->robot);
+  serve->add_option("--log-level", options->log_level, "debug, info, warning or error")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_limits(*serve, options->server.limits);
+  serve->footer(
+      "Prints 'listening on ADDRESS' when it is ready; logs go to standard error. SIGTERM and\n"
+      "SIGINT end the calls in flight, write the last snapshot and exit with 0.\n"
+      "Example: nbvopt serve --create 0.05 --snapshot map.ot --listen unix:/run/robot/nbvopt");
+  serve->callback([options] { run_serve(*options); });
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,46 @@
+// Between the messages of planner.proto and the library's own types, both ways.
+//
+// What comes from a message is checked: a needed field that is not set, a number that is not finite
+// and records that are cut short are refused with an InputError that names the field.
+#pragma once
+
+#include <string>
+
+#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/map/scan.hpp"
+#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/solver/solver_choice.hpp"
+#include "nbvopt/v1/planner.pb.h"
+
+namespace nbvopt {
+
+/// `field` names the message in errors, here and below.
+Transform from_message(const v1::Pose& pose, const std::string& field);
+Transform from_message(const v1::BasePose& base, const std::string& field);
+JointPosition from_message(const v1::JointPosition& joints, const std::string& field);
+BaseTwist from_message(const v1::BaseTwist& twist, const std::string& field);
+SolverChoice from_message(const v1::Search& search);
+ViewGain from_message(const v1::ViewGain& view);
+MapFormat from_message(v1::MapFormat format);
+
+/// Without the stop rule's deadline.
+PlanRequest from_message(const v1::PlanRequest& request);
+PlanResult from_message(const v1::PlanReply& reply);
+
+/// T_map_sensor of a view; `mast` turns joints into poses.
+Transform from_message(const v1::View& view, const Mast& mast, const std::string& field);
+
+/// The scan of a request, which has at most so many points (rays without a return, pixels).
+/// Throws LimitError when it has more.
+Scan scan_from_message(const v1::InsertScanRequest& request, std::uint64_t max_points);
+
+v1::Pose to_message(const Transform& T);
+v1::JointPosition to_message(const JointPosition& joints);
+v1::Search to_message(const SolverChoice& choice);
+v1::ViewGain to_message(const ViewGain& view);
+v1::MapFormat to_message(MapFormat format);
+v1::PlanRequest to_message(const PlanRequest& request);
+v1::PlanReply to_message(const PlanResult& result);
+v1::PointCloud to_message(const Scan& scan);
+
+}  // namespace nbvopt

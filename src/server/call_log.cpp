@@ -1,0 +1,33 @@
+#include "server/call_log.hpp"
+
+namespace nbvopt {
+namespace {
+
+constexpr std::array kMethodNames{"Plan",    "PlanStream", "Evaluate", "InsertScan", "InsertScans",
+                                  "LoadMap", "SaveMap",    "GetMap",   "ClearMap",   "GetStatus"};
+
+}  // namespace
+
+void CallLog::write(v1::GetStatusReply& reply) const {
+  static_assert(kMethodNames.size() == kMethods);
+  for (std::size_t i = 0; i < kMethods; ++i) {
+    const LatencyHistogram::Counts counts = entries_[i].latency.counts();
+    v1::Latency& latency = *reply.add_latencies();
+    latency.set_method(kMethodNames[i]);
+    latency.set_calls(counts.calls);
+    latency.set_failed(entries_[i].failed);
+    latency.set_shed(entries_[i].shed);
+    latency.set_sum_ms(counts.sum_ms);
+    latency.set_max_ms(counts.max_ms);
+    for (const double bound_ms : LatencyHistogram::upper_bounds_ms()) {
+      latency.add_upper_bounds_ms(bound_ms);
+    }
+    for (const std::uint64_t count : counts.buckets) latency.add_counts(count);
+  }
+  const auto scans = [this](Method method) {
+    return entries_[static_cast<std::size_t>(method)].latency.counts().calls;
+  };
+  reply.set_scans(scans(Method::insert_scan) + scans(Method::insert_scans));
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,49 @@
+// How calls went: latencies, errors and what was shed, by method.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+#include "nbvopt/v1/planner.pb.h"
+#include "server/latency_histogram.hpp"
+
+namespace nbvopt {
+
+enum class Method {
+  plan,
+  plan_stream,  ///< each plan of a stream is a call
+  evaluate,
+  insert_scan,
+  insert_scans,  ///< each scan of a stream is a call
+  load_map,
+  save_map,
+  get_map,
+  clear_map,
+  get_status,
+};
+
+/// Safe to share between threads.
+class CallLog {
+ public:
+  void record_answer(Method method, double elapsed_ms) { of(method).latency.record(elapsed_ms); }
+  void record_failure(Method method) { ++of(method).failed; }
+  void record_shed(Method method) { ++of(method).shed; }
+
+  /// Adds the figures of all methods.
+  void write(v1::GetStatusReply& reply) const;
+
+ private:
+  struct Entry {
+    LatencyHistogram latency;
+    std::atomic<std::uint64_t> failed{0};
+    std::atomic<std::uint64_t> shed{0};
+  };
+  static constexpr std::size_t kMethods = 10;
+
+  Entry& of(Method method) { return entries_[static_cast<std::size_t>(method)]; }
+
+  std::array<Entry, kMethods> entries_;
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,113 @@
+#include "server/data_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "nbvopt/core/error.hpp"
+#include "server/request_error.hpp"
+
+namespace nbvopt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path, checked as text. Throws RequestError.
+fs::path checked(const std::string& text) {
+  const fs::path path(text);
+  const auto refuse = [&text](const char* why) {
+    throw RequestError(grpc::StatusCode::PERMISSION_DENIED, "'" + text + "': " + why);
+  };
+  if (text.find('\0') != std::string::npos) refuse("a path has no zero byte");
+  if (path.is_absolute()) refuse("give a path relative to the server's data folder");
+  for (const fs::path& part : path) {
+    if (part == "..") refuse("'..' is not allowed: paths stay in the server's data folder");
+  }
+  if (!path.has_filename() || path.filename() == ".") {
+    throw RequestError(grpc::StatusCode::INVALID_ARGUMENT, "'" + text + "': name a file");
+  }
+  return path;
+}
+
+[[noreturn]] void refuse_to_open(const fs::path& path) {
+  const int error = errno;
+  const std::string name = "'" + path.string() + "': ";
+  if (error == ELOOP) {
+    throw RequestError(grpc::StatusCode::PERMISSION_DENIED, name + "links are not followed");
+  }
+  const auto code =
+      error == ENOENT ? grpc::StatusCode::NOT_FOUND : grpc::StatusCode::INVALID_ARGUMENT;
+  throw RequestError(code, name + std::generic_category().message(error));
+}
+
+bool is_link(int folder, const char* name) {
+  struct stat status {};
+  return ::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode);
+}
+
+}  // namespace
+
+DataFolder::DataFolder(const fs::path& folder, fs::path kept_file)
+    : folder_(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)),
+      kept_file_(std::move(kept_file)) {
+  if (folder_.is_open()) return;
+  throw InputError(folder.string() +
+                   ": cannot be the data folder: " + std::generic_category().message(errno));
+}
+
+Descriptor DataFolder::open_parent(const fs::path& path) const {
+  Descriptor folder(::openat(folder_.get(), ".", O_PATH | O_DIRECTORY | O_CLOEXEC));
+  for (const fs::path& part : path.parent_path()) {
+    const bool leads_out = is_link(folder.get(), part.c_str());
+    Descriptor next(
+        ::openat(folder.get(), part.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (leads_out) errno = ELOOP;
+    if (leads_out || !next.is_open()) refuse_to_open(path);
+    folder = std::move(next);
+  }
+  return folder;
+}
+
+Descriptor DataFolder::open(const std::string& text) const {
+  const fs::path path = checked(text);
+  const Descriptor parent = open_parent(path);
+  // Without waiting for the writer of a pipe.
+  Descriptor file(::openat(parent.get(), path.filename().c_str(),
+                           O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!file.is_open()) refuse_to_open(path);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    throw RequestError(grpc::StatusCode::INVALID_ARGUMENT, "'" + text + "': not a file");
+  }
+  return file;
+}
+
+void DataFolder::write(const std::string& text, std::string_view bytes) const {
+  const fs::path path = checked(text);
+  const Descriptor parent = open_parent(path);
+  if (is_link(parent.get(), path.filename().c_str())) {
+    errno = ELOOP;
+    refuse_to_open(path);
+  }
+  struct stat kept {};
+  struct stat target {};
+  if (!kept_file_.empty() && ::stat(kept_file_.c_str(), &kept) == 0 &&
+      ::fstatat(parent.get(), path.filename().c_str(), &target, AT_SYMLINK_NOFOLLOW) == 0 &&
+      kept.st_dev == target.st_dev && kept.st_ino == target.st_ino) {
+    throw RequestError(grpc::StatusCode::PERMISSION_DENIED,
+                       "'" + text + "': this is the server's own snapshot, name another file");
+  }
+  const std::string folder = "/proc/self/fd/" + std::to_string(parent.get());
+  try {
+    write_file_atomically(fs::path(folder) / path.filename(), bytes);
+  } catch (const InputError& error) {  // which names the folder as above
+    const std::string what = error.what();
+    throw InputError("'" + text + "'" + what.substr(what.find(": ")));
+  }
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,20 @@
+// A file that one process at a time holds: two servers must not share a socket or a snapshot.
+#pragma once
+
+#include <filesystem>
+
+#include "core/descriptor.hpp"
+
+namespace nbvopt {
+
+class FileLock {
+ public:
+  /// Takes the lock "<path>.lock"; it ends with the process, however that ends. Throws InputError
+  /// when another process holds it or when it cannot be made; `use` says what it protects.
+  FileLock(const std::filesystem::path& path, const char* use);
+
+ private:
+  Descriptor file_;
+};
+
+}  // namespace nbvopt

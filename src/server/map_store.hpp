@@ -1,0 +1,84 @@
+// The server's map: one tree that scans write, and immutable versions of it that plans read.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/map/scan.hpp"
+#include "server/limits.hpp"
+#include "server/published_map.hpp"
+
+namespace nbvopt {
+
+/// A map as the bytes of a file.
+struct MapBytes {
+  std::string bytes;
+  std::uint64_t version = 0;
+};
+
+struct VersionedCounts {
+  MapCounts counts;
+  PaperCounts paper;
+  std::uint64_t version = 0;
+};
+
+/// Safe to share between threads. Those who change or copy the tree wait for each other; nobody
+/// waits for them who reads what is published.
+class MapStore {
+ public:
+  /// Holds `map` as version `version`. Throws LimitError when it is too large.
+  MapStore(const Robot& robot, const ServerLimits& limits, UncertaintyMap map,
+           std::uint64_t version);
+
+  const Robot& robot() const { return robot_; }
+
+  /// The newest version.
+  std::shared_ptr<const PublishedMap> published() const;
+
+  struct Insertion {
+    InsertResult result;
+    std::uint64_t version = 0;  ///< the first that holds the scan
+  };
+  /// Inserts a scan and publishes the map with it. Throws as insert_scan() does, and LimitError
+  /// when the scan would stretch the map beyond its largest extent; the map is then untouched.
+  Insertion insert(const Scan& scan, const Transform& T_map_sensor);
+
+  /// Publishes another map in place of this one and returns its version. Throws LimitError when it
+  /// is too large; the map is then as it was.
+  std::uint64_t replace(UncertaintyMap map);
+
+  /// Publishes an empty map of this resolution, or of the same as before, and returns its version.
+  /// Throws as UncertaintyMap does.
+  std::uint64_t clear(std::optional<double> resolution_m);
+
+  MapBytes bytes(MapFormat format) const;
+
+  /// Counts, kept until the map changes.
+  VersionedCounts counts() const;
+
+ private:
+  /// Throws LimitError, naming the limit, unless a map with this box is small enough.
+  void check_extent(const Eigen::AlignedBox3d& box_m) const;
+  /// The same for a whole map and all limits; returns its box in the map frame.
+  Eigen::AlignedBox3d checked_extent_m(const UncertaintyMap& map) const;
+  void publish(std::shared_ptr<const VoxelGrid> grid);
+
+  const Robot robot_;
+  const ServerLimits limits_;
+
+  mutable std::mutex tree_mutex_;  ///< of what follows
+  UncertaintyMap map_;
+  Eigen::AlignedBox3d extent_m_;  ///< of what is known, with the reach of all scans
+  std::shared_ptr<const VoxelGrid> grid_;
+  mutable VersionedCounts counts_;
+
+  mutable std::mutex published_mutex_;  ///< held for the copy of one pointer
+  std::shared_ptr<const PublishedMap> published_;
+};
+
+}  // namespace nbvopt

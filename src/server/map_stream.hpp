@@ -1,0 +1,57 @@
+// GetMap: the bytes of a map file, in chunks as the client takes them.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "nbvopt/v1/planner.pb.h"
+#include "server/queued_call.hpp"
+#include "server/request_handler.hpp"
+
+namespace nbvopt {
+
+/// Deletes itself when the stream has ended.
+class MapStreamCall final : public grpc::ServerWriteReactor<v1::MapChunk> {
+ public:
+  MapStreamCall(const v1::GetMapRequest& request, const RequestHandler& handler, CallLog& log,
+                WorkQueue& queue)
+      : request_(request), handler_(handler), log_(log) {
+    if (queue.try_post([this] { copy_map(); })) return;
+    log_.record_shed(Method::get_map);
+    Finish(shed_status());
+  }
+
+ private:
+  void copy_map() {
+    const grpc::Status status =
+        logged(log_, Method::get_map, received_, [this] { map_ = handler_.get_map(request_); });
+    if (!status.ok()) return Finish(status);
+    chunk_.set_map_version(map_.version);
+    chunk_.set_total_bytes(map_.bytes.size());
+    write_chunk();
+  }
+
+  void write_chunk() {
+    constexpr std::size_t kChunkBytes = 1 << 20;
+    chunk_.set_data(map_.bytes.substr(sent_, kChunkBytes));
+    sent_ += chunk_.data().size();
+    StartWrite(&chunk_);
+  }
+
+  void OnWriteDone(bool ok) override {
+    if (!ok || sent_ == map_.bytes.size()) return Finish(grpc::Status::OK);
+    write_chunk();
+  }
+
+  void OnDone() override { delete this; }
+
+  const v1::GetMapRequest request_;
+  const RequestHandler& handler_;
+  CallLog& log_;
+  const StopRule::Clock::time_point received_ = StopRule::Clock::now();
+  MapBytes map_;
+  std::size_t sent_ = 0;
+  v1::MapChunk chunk_;
+};
+
+}  // namespace nbvopt

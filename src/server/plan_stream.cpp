@@ -1,0 +1,78 @@
+#include "server/plan_stream.hpp"
+
+#include <utility>
+
+namespace nbvopt {
+
+PlanStreamCall::PlanStreamCall(const grpc::CallbackServerContext& context,
+                               const RequestHandler& handler, CallLog& log, WorkQueue& queue)
+    : limits_(context), handler_(handler), log_(log), queue_(queue) {
+  StartRead(&incoming_);
+}
+
+void PlanStreamCall::OnReadDone(bool ok) {
+  bool read_on = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (ok) {
+      newest_ = State{std::move(incoming_), StopRule::Clock::now()};
+      incoming_.Clear();
+    } else {
+      all_read_ = true;  // or the client is gone
+    }
+    read_on = ok && !ended_;
+  }
+  go_on();
+  if (read_on) StartRead(&incoming_);
+}
+
+void PlanStreamCall::OnWriteDone(bool ok) {
+  {
+    const std::scoped_lock lock(mutex_);
+    busy_ = false;
+    if (!ok) {
+      all_read_ = true;
+      newest_.reset();
+    }
+  }
+  go_on();
+}
+
+void PlanStreamCall::go_on() {
+  bool has_work = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (busy_ || ended_) return;
+    has_work = newest_.has_value();
+    if (!has_work && !all_read_) return;
+    if (has_work) {
+      busy_ = true;
+      planned_ = std::move(*newest_);
+      newest_.reset();
+    } else {
+      ended_ = true;
+    }
+  }
+  if (!has_work) return Finish(grpc::Status::OK);
+  if (queue_.try_post([this] { plan(); })) return;
+  log_.record_shed(Method::plan_stream);
+  end(shed_status());
+}
+
+void PlanStreamCall::plan() {
+  const grpc::Status status = logged(log_, Method::plan_stream, planned_.received, [this] {
+    reply_ = handler_.plan(planned_.request, planned_.received, limits_.stop());
+  });
+  if (!status.ok()) return end(status);
+  StartWrite(&reply_);
+}
+
+void PlanStreamCall::end(const grpc::Status& status) {
+  {
+    const std::scoped_lock lock(mutex_);
+    ended_ = true;
+  }
+  Finish(status);
+}
+
+}  // namespace nbvopt

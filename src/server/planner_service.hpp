@@ -1,0 +1,60 @@
+// The gRPC service: each call becomes a piece of work on one of three queues.
+//
+// gRPC's own threads only move messages. Plans and evaluations share threads of their own; all that
+// changes the map is done by one thread, in order; what waits for the disk or copies a whole map by
+// a third, so that neither keeps plans or scans waiting. A full queue sheds the call.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+
+#include "nbvopt/v1/planner.grpc.pb.h"
+#include "server/call_log.hpp"
+#include "server/request_handler.hpp"
+#include "server/work_queue.hpp"
+
+namespace nbvopt {
+
+class PlannerService final : public v1::Planner::CallbackService {
+ public:
+  /// Plans on `planning_threads`. The handler must outlive the service, and the service the server.
+  PlannerService(RequestHandler& handler, std::size_t planning_threads);
+
+  grpc::ServerUnaryReactor* Plan(grpc::CallbackServerContext* context,
+                                 const v1::PlanRequest* request, v1::PlanReply* reply) override;
+  grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply>* PlanStream(
+      grpc::CallbackServerContext* context) override;
+  grpc::ServerUnaryReactor* Evaluate(grpc::CallbackServerContext* context,
+                                     const v1::EvaluateRequest* request,
+                                     v1::EvaluateReply* reply) override;
+  grpc::ServerUnaryReactor* InsertScan(grpc::CallbackServerContext* context,
+                                       const v1::InsertScanRequest* request,
+                                       v1::InsertScanReply* reply) override;
+  grpc::ServerReadReactor<v1::InsertScanRequest>* InsertScans(grpc::CallbackServerContext* context,
+                                                              v1::InsertScansReply* reply) override;
+  grpc::ServerUnaryReactor* LoadMap(grpc::CallbackServerContext* context,
+                                    const v1::LoadMapRequest* request,
+                                    v1::LoadMapReply* reply) override;
+  grpc::ServerUnaryReactor* SaveMap(grpc::CallbackServerContext* context,
+                                    const v1::SaveMapRequest* request,
+                                    v1::SaveMapReply* reply) override;
+  grpc::ServerWriteReactor<v1::MapChunk>* GetMap(grpc::CallbackServerContext* context,
+                                                 const v1::GetMapRequest* request) override;
+  grpc::ServerUnaryReactor* ClearMap(grpc::CallbackServerContext* context,
+                                     const v1::ClearMapRequest* request,
+                                     v1::ClearMapReply* reply) override;
+  grpc::ServerUnaryReactor* GetStatus(grpc::CallbackServerContext* context,
+                                      const v1::GetStatusRequest* request,
+                                      v1::GetStatusReply* reply) override;
+
+ private:
+  RequestHandler& handler_;
+  CallLog log_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  WorkQueue planning_;
+  WorkQueue mapping_;
+  WorkQueue storage_;
+};
+
+}  // namespace nbvopt

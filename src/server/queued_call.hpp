@@ -1,0 +1,98 @@
+// What all calls share: their place on a queue, their limits, and their entry in the log.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "nbvopt/core/stop.hpp"
+#include "server/call_log.hpp"
+#include "server/call_status.hpp"
+#include "server/work_queue.hpp"
+
+namespace nbvopt {
+
+/// One call's limits: the client's deadline and its cancellation.
+class CallLimits {
+ public:
+  explicit CallLimits(const grpc::CallbackServerContext& context) {
+    using System = std::chrono::system_clock;
+    if (context.deadline() == System::time_point::max()) return;
+    // From here on by the steady clock, which nobody sets. A millisecond is left for the reply.
+    constexpr std::chrono::milliseconds kReplyTime{1};
+    stop_.deadline = received_ + std::chrono::duration_cast<StopRule::Clock::duration>(
+                                     context.deadline() - System::now() - kReplyTime);
+  }
+
+  StopRule::Clock::time_point received() const { return received_; }
+  const StopRule& stop() const { return stop_; }
+  void cancel() const { stop_.cancel.cancel(); }
+
+ private:
+  StopRule::Clock::time_point received_ = StopRule::Clock::now();
+  StopRule stop_;
+};
+
+/// Does a piece of work that was received then, and logs how it went.
+template <typename Run>
+grpc::Status logged(CallLog& log, Method method, StopRule::Clock::time_point received,
+                    const Run& run) {
+  try {
+    run();
+    const std::chrono::duration<double, std::milli> elapsed = StopRule::Clock::now() - received;
+    log.record_answer(method, elapsed.count());
+    return grpc::Status::OK;
+  } catch (const std::exception& error) {
+    log.record_failure(method);
+    grpc::Status status = status_of(error);
+    if (status.error_code() == grpc::StatusCode::INTERNAL) {
+      spdlog::error("event=internal_error error=\"{}\"", error.what());
+    }
+    return status;
+  }
+}
+
+/// A unary call: `run(limits)` fills the reply on a thread of the queue, and may throw.
+template <typename Run>
+class QueuedCall final : public grpc::ServerUnaryReactor {
+ public:
+  QueuedCall(const grpc::CallbackServerContext& context, CallLog& log, Method method, Run run)
+      : limits_(context), log_(log), method_(method), run_(std::move(run)) {}
+
+  void start(WorkQueue& queue) {
+    if (queue.try_post([this] { work(); })) return;
+    log_.record_shed(method_);
+    Finish(shed_status());
+  }
+
+ private:
+  void work() {
+    if (limits_.stop().cancel.is_cancelled()) {
+      log_.record_failure(method_);
+      return Finish({grpc::StatusCode::CANCELLED, "cancelled while it waited"});
+    }
+    Finish(logged(log_, method_, limits_.received(), [this] { run_(limits_); }));
+  }
+
+  void OnCancel() override { limits_.cancel(); }
+  void OnDone() override { delete this; }
+
+  const CallLimits limits_;
+  CallLog& log_;
+  const Method method_;
+  const Run run_;
+};
+
+/// Starts a unary call on a queue.
+template <typename Run>
+grpc::ServerUnaryReactor* start_call(const grpc::CallbackServerContext& context, CallLog& log,
+                                     Method method, WorkQueue& queue, Run run) {
+  auto* call = new QueuedCall<Run>(context, log, method, std::move(run));
+  call->start(queue);
+  return call;
+}
+
+}  // namespace nbvopt

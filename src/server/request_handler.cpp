@@ -1,0 +1,187 @@
+#include "server/request_handler.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "core/number.hpp"
+#include "nbvopt/core/version.hpp"
+#include "nbvopt/map/map_file.hpp"
+#include "protocol/limit_error.hpp"
+#include "protocol/messages.hpp"
+#include "server/request_error.hpp"
+#include "server/versions.hpp"
+
+namespace nbvopt {
+namespace {
+
+using Clock = StopRule::Clock;
+
+void stop_at_latest(StopRule& stop, Clock::time_point received, double limit_ms) {
+  const auto deadline = received + std::chrono::duration_cast<Clock::duration>(
+                                       std::chrono::duration<double, std::milli>(limit_ms));
+  stop.deadline = std::min(stop.deadline.value_or(deadline), deadline);
+}
+
+const std::string& needed_path(bool is_set, const std::string& path) {
+  if (!is_set) throw InputError("path is not set");
+  return path;
+}
+
+}  // namespace
+
+RequestHandler::RequestHandler(MapStore& store, const SnapshotKeeper* snapshots,
+                               const DataFolder* data, const ServerLimits& limits)
+    : store_(store), snapshots_(snapshots), data_(data), limits_(limits) {}
+
+StopRule RequestHandler::limited(const StopRule& stop, Clock::time_point received) const {
+  StopRule limited = stop;
+  stop_at_latest(limited, received, limits_.max_compute_ms);
+  return limited;
+}
+
+v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
+                                   const StopRule& stop) const {
+  const std::shared_ptr<const PublishedMap> map = store_.published();
+  PlanRequest request = from_message(message);
+  const std::unique_ptr<Solver> solver = make_solver(from_message(message.search()));
+  const std::int64_t max_evaluations = request.stop.max_evaluations;
+  request.stop = limited(stop, received);
+  request.stop.max_evaluations = max_evaluations;
+  if (message.has_time_limit_ms()) {
+    if (!(message.time_limit_ms() > 0.0) || !std::isfinite(message.time_limit_ms())) {
+      throw InputError("time_limit_ms is " + format_number(message.time_limit_ms()) +
+                       ", it must be positive and finite");
+    }
+    const double limit_ms = std::min(message.time_limit_ms(), limits_.max_compute_ms);
+    stop_at_latest(request.stop, received, limit_ms);
+  }
+  v1::PlanReply reply = to_message(map->planner().plan(request, *solver));
+  reply.set_counting(to_string(store_.robot().sensor.counting));
+  if (message.has_request_id()) reply.set_request_id(message.request_id());
+  return reply;
+}
+
+v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
+                                           Clock::time_point received, const StopRule& stop) const {
+  if (message.views_size() > limits_.max_views) {
+    throw LimitError("the call has " + std::to_string(message.views_size()) +
+                     " views, the limit is " + std::to_string(limits_.max_views) +
+                     " (--max-views)");
+  }
+  const std::shared_ptr<const PublishedMap> map = store_.published();
+  const Mast mast(store_.robot().mast);
+  std::vector<Transform> poses_T_map_sensor;
+  for (int i = 0; i < message.views_size(); ++i) {
+    poses_T_map_sensor.push_back(
+        from_message(message.views(i), mast, "views[" + std::to_string(i) + "]"));
+  }
+  // One thread: the other ones serve other calls.
+  const std::vector<ViewGain> gains =
+      evaluate_views(map->evaluator(), poses_T_map_sensor, 1, limited(stop, received));
+
+  v1::EvaluateReply reply;
+  reply.set_map_version(map->version());
+  for (const ViewGain& gain : gains) {
+    if (std::isnan(gain.gain)) {
+      throw stop.cancel.is_cancelled()
+          ? RequestError(grpc::StatusCode::CANCELLED, "cancelled before all views were evaluated")
+          : RequestError(grpc::StatusCode::DEADLINE_EXCEEDED,
+                         "out of time before all views were evaluated, ask for fewer at once");
+    }
+    *reply.add_gains() = to_message(gain);
+  }
+  return reply;
+}
+
+v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& message) {
+  const Transform T_map_sensor = from_message(message.sensor(), "sensor");
+  const Scan scan = scan_from_message(message, static_cast<std::uint64_t>(limits_.max_scan_points));
+  const auto [result, version] = store_.insert(scan, T_map_sensor);
+  v1::InsertScanReply reply;
+  reply.set_map_version(version);
+  reply.set_durable_version(durable_version());
+  reply.set_points_used(result.points_used);
+  reply.set_rays_cleared(result.rays_cleared);
+  reply.set_points_ignored(result.points_ignored);
+  reply.set_voxels_changed(result.changes.size());
+  reply.set_information_gained(result.information_gained);
+  return reply;
+}
+
+v1::LoadMapReply RequestHandler::load_map(const v1::LoadMapRequest& message) {
+  const std::string& path = needed_path(message.has_path(), message.path());
+  const Descriptor file = data().open(path);
+  std::ifstream in("/proc/self/fd/" + std::to_string(file.get()), std::ios::binary);
+  UncertaintyMap map = read_map(in, "'" + path + "'");
+  v1::LoadMapReply reply;
+  reply.set_resolution_m(map.resolution_m());
+  reply.set_map_version(store_.replace(std::move(map)));
+  spdlog::info("event=map_loaded path=\"{}\" map_version={}", path, reply.map_version());
+  return reply;
+}
+
+v1::SaveMapReply RequestHandler::save_map(const v1::SaveMapRequest& message) const {
+  const std::string& path = needed_path(message.has_path(), message.path());
+  const DataFolder& folder = data();
+  const MapBytes map = store_.bytes(from_message(message.format()));
+  folder.write(path, map.bytes);
+  v1::SaveMapReply reply;
+  reply.set_map_version(map.version);
+  reply.set_bytes(map.bytes.size());
+  spdlog::info("event=map_saved path=\"{}\" map_version={}", path, map.version);
+  return reply;
+}
+
+MapBytes RequestHandler::get_map(const v1::GetMapRequest& message) const {
+  return store_.bytes(from_message(message.format()));
+}
+
+v1::ClearMapReply RequestHandler::clear_map(const v1::ClearMapRequest& message) {
+  v1::ClearMapReply reply;
+  reply.set_map_version(store_.clear(
+      message.has_resolution_m() ? std::optional(message.resolution_m()) : std::nullopt));
+  spdlog::info("event=map_cleared map_version={}", reply.map_version());
+  return reply;
+}
+
+v1::GetStatusReply RequestHandler::status(const v1::GetStatusRequest& message) const {
+  v1::GetStatusReply reply;
+  reply.set_version(version());
+  reply.set_versions(server_version_report());
+  const std::shared_ptr<const PublishedMap> map = store_.published();
+  reply.set_map_version(map->version());
+  reply.set_resolution_m(map->grid().lattice().resolution_m());
+  if (snapshots_ != nullptr) {
+    const SnapshotKeeper::State state = snapshots_->state();
+    reply.set_durable_version(state.durable_version);
+    reply.set_snapshot_error(state.error);
+  }
+  if (message.with_counts()) {
+    const VersionedCounts counted = store_.counts();
+    v1::MapCounts& counts = *reply.mutable_counts();
+    counts.set_occupied_voxels(counted.counts.occupied_voxels);
+    counts.set_free_voxels(counted.counts.free_voxels);
+    counts.set_certain_voxels(counted.counts.certain_voxels);
+    counts.set_information(counted.counts.information);
+    counts.set_nodes(counted.counts.nodes);
+    counts.set_paper_voxels(counted.paper.voxels);
+    counts.set_paper_information(counted.paper.information);
+    reply.set_counted_version(counted.version);
+  }
+  return reply;
+}
+
+std::uint64_t RequestHandler::durable_version() const {
+  return snapshots_ == nullptr ? 0 : snapshots_->state().durable_version;
+}
+
+const DataFolder& RequestHandler::data() const {
+  if (data_ != nullptr) return *data_;
+  throw RequestError(grpc::StatusCode::FAILED_PRECONDITION,
+                     "the server has no data folder, start it with --data-dir");
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,54 @@
+// What the server does with each request, without the network: a message in, a message out.
+#pragma once
+
+#include "nbvopt/core/stop.hpp"
+#include "nbvopt/v1/planner.pb.h"
+#include "server/data_folder.hpp"
+#include "server/map_store.hpp"
+#include "server/snapshot_keeper.hpp"
+
+namespace nbvopt {
+
+/// Safe to share between threads. All throw InputError or UsageError for a request that cannot be
+/// used, LimitError for one beyond a limit, and RequestError for the rest.
+class RequestHandler {
+ public:
+  /// `snapshots` and `data` are null when the server was started without. All must outlive this.
+  RequestHandler(MapStore& store, const SnapshotKeeper* snapshots, const DataFolder* data,
+                 const ServerLimits& limits);
+
+  const ServerLimits& limits() const { return limits_; }
+
+  /// `received`: the request's own time limit counts from then. `stop` holds the call's deadline
+  /// and its cancellation.
+  v1::PlanReply plan(const v1::PlanRequest& message, StopRule::Clock::time_point received,
+                     const StopRule& stop) const;
+
+  /// Throws RequestError (DEADLINE_EXCEEDED or CANCELLED) when `stop` comes before the last view.
+  v1::EvaluateReply evaluate(const v1::EvaluateRequest& message,
+                             StopRule::Clock::time_point received, const StopRule& stop) const;
+
+  v1::InsertScanReply insert_scan(const v1::InsertScanRequest& message);
+  v1::LoadMapReply load_map(const v1::LoadMapRequest& message);
+  v1::SaveMapReply save_map(const v1::SaveMapRequest& message) const;
+  MapBytes get_map(const v1::GetMapRequest& message) const;
+  v1::ClearMapReply clear_map(const v1::ClearMapRequest& message);
+
+  /// All but the service's own figures.
+  v1::GetStatusReply status(const v1::GetStatusRequest& message) const;
+
+  std::uint64_t durable_version() const;
+
+ private:
+  /// The stop rule with the server's own limit of computing.
+  StopRule limited(const StopRule& stop, StopRule::Clock::time_point received) const;
+  /// Throws RequestError when there is none.
+  const DataFolder& data() const;
+
+  MapStore& store_;
+  const SnapshotKeeper* snapshots_;
+  const DataFolder* data_;
+  ServerLimits limits_;
+};
+
+}  // namespace nbvopt

@@ -1,0 +1,154 @@
+#include "server/server.hpp"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/text_file.hpp"
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/core/version.hpp"
+#include "nbvopt/map/map_file.hpp"
+#include "server/file_lock.hpp"
+#include "server/planner_service.hpp"
+#include "server/snapshot_file.hpp"
+
+namespace nbvopt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The map to start with: what a snapshot holds wins over the map file, which is older.
+Snapshot first_map(const ServerOptions& options) {
+  if (!options.snapshot_file.empty()) {
+    if (auto snapshot = read_snapshot(options.snapshot_file)) {
+      spdlog::info("event=resumed snapshot=\"{}\" map_version={}", options.snapshot_file.string(),
+                   snapshot->version);
+      return std::move(*snapshot);
+    }
+  }
+  if (!options.map_file.empty()) return {read_map(options.map_file), 1};
+  if (!options.new_resolution_m) {
+    throw UsageError(
+        "there is no map to start with: name a MAP, or give --create M for an empty one");
+  }
+  return {UncertaintyMap(*options.new_resolution_m), 1};
+}
+
+std::shared_ptr<grpc::ServerCredentials> credentials(const TlsFiles& tls) {
+  if (tls.is_empty()) return grpc::InsecureServerCredentials();
+  grpc::SslServerCredentialsOptions options(
+      GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
+  options.pem_root_certs = read_text_file(tls.client_ca);
+  options.pem_key_cert_pairs.push_back({read_text_file(tls.key), read_text_file(tls.certificate)});
+  return grpc::SslServerCredentials(options);
+}
+
+/// Files made meanwhile, sockets too, are nobody else's.
+class PrivateFiles {
+ public:
+  PrivateFiles() : before_(::umask(0177)) {}
+  PrivateFiles(const PrivateFiles&) = delete;
+  PrivateFiles& operator=(const PrivateFiles&) = delete;
+  ~PrivateFiles() { ::umask(before_); }
+
+ private:
+  mode_t before_;
+};
+
+}  // namespace
+
+/// In the order in which they are needed; they go in the opposite one.
+struct Server::Parts {
+  explicit Parts(const ServerOptions& server_options)
+      : options(server_options), address(parse_listen_address(options.listen)) {
+    check_tls(address, options.tls);
+    if (address.socket) socket_lock.emplace(*address.socket, "socket");
+    if (!options.data_folder.empty()) data.emplace(options.data_folder, options.snapshot_file);
+    open_map();
+    handler.emplace(*store, snapshots ? &*snapshots : nullptr, data ? &*data : nullptr,
+                    options.limits);
+    service.emplace(*handler, options.planning_threads);
+    listen();
+  }
+
+  void open_map() {
+    const bool keeps_snapshots = !options.snapshot_file.empty();
+    if (keeps_snapshots) {
+      snapshot_lock.emplace(options.snapshot_file, "snapshot");
+      remove_unfinished_snapshots(options.snapshot_file);
+    }
+    Snapshot first = first_map(options);
+    store.emplace(options.robot, options.limits, std::move(first.map), first.version);
+    if (!keeps_snapshots) return;
+    snapshots.emplace(*store, options.snapshot_file, options.snapshot_every);
+    snapshots->save();  // a disk that is full or not writable shows before the first scan
+  }
+
+  void listen() {
+    grpc::EnableDefaultHealthCheckService(true);
+    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+    grpc::ServerBuilder builder;
+    int port = -1;
+    builder.AddListeningPort(address.text, credentials(options.tls), &port);
+    builder.RegisterService(&*service);
+    builder.SetMaxReceiveMessageSize(static_cast<int>(options.limits.max_message_mib << 20));
+    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server must not share it
+    // Clients that are gone without a word.
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 20'000);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
+    {
+      const PrivateFiles only_mine;
+      server = builder.BuildAndStart();
+    }
+    if (server == nullptr || port < 0) {
+      throw InputError("cannot listen on " + address.text +
+                       ": it is in use, or not of this machine, or its certificates do not fit");
+    }
+    if (!address.socket)
+      address.text.replace(address.text.rfind(':') + 1, std::string::npos, std::to_string(port));
+    server->GetHealthCheckService()->SetServingStatus(v1::Planner::service_full_name(), true);
+  }
+
+  const ServerOptions options;
+  ListenAddress address;
+  std::optional<FileLock> socket_lock;
+  std::optional<FileLock> snapshot_lock;
+  std::optional<DataFolder> data;
+  std::optional<MapStore> store;
+  std::optional<SnapshotKeeper> snapshots;
+  std::optional<RequestHandler> handler;
+  std::optional<PlannerService> service;
+  std::unique_ptr<grpc::Server> server;
+};
+
+Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(options)) {
+  spdlog::info("event=listening address=\"{}\" version={} map_version={}", address(), version(),
+               parts_->store->published()->version());
+  if (!parts_->snapshots) {
+    spdlog::warn(
+        "event=no_snapshot note=\"the map is lost when the server ends, give --snapshot\"");
+  }
+}
+
+Server::~Server() {
+  if (parts_->server) parts_->server->Shutdown(std::chrono::system_clock::now());
+}
+
+std::string Server::address() const { return parts_->address.text; }
+
+void Server::stop() {
+  constexpr std::chrono::seconds kGrace{1};
+  parts_->server->GetHealthCheckService()->SetServingStatus(false);
+  parts_->server->Shutdown(std::chrono::system_clock::now() + kGrace);
+  if (parts_->snapshots) parts_->snapshots->save();
+  spdlog::info("event=stopped map_version={} durable_version={}",
+               parts_->store->published()->version(), parts_->handler->durable_version());
+}
+
+}  // namespace nbvopt
