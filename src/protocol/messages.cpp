@@ -104,7 +104,8 @@ Scan scan_of(const v1::DepthImage& image, std::uint64_t max_points) {
   if (!image.has_height_px()) throw InputError("depth_image.height_px is not set");
   const std::uint64_t width = image.width_px();
   const std::uint64_t height = image.height_px();
-  if (width > 0) check_points(std::max(width, width * height), max_points);
+  if (width == 0 || height == 0) throw InputError("depth_image has no pixels");
+  check_points(width * height, max_points);
   if (width * height * sizeof(std::uint16_t) != image.depth().size()) {
     throw InputError("depth_image.depth has " + std::to_string(image.depth().size()) + " bytes, " +
                      std::to_string(width) + " x " + std::to_string(height) + " pixels take " +
@@ -158,10 +159,12 @@ Transform from_message(const v1::BasePose& base, const std::string& field) {
     case v1::BasePose::kPlanar: {
       const v1::PlanarPose& planar = base.planar();
       const std::string name = field + ".planar";
-      return base_pose(needed(planar.has_x_m(), planar.x_m(), name + ".x_m"),
-                       needed(planar.has_y_m(), planar.y_m(), name + ".y_m"),
-                       needed(true, planar.z_m(), name + ".z_m"),
-                       needed(planar.has_yaw_rad(), planar.yaw_rad(), name + ".yaw_rad"));
+      const std::array<double, 4> numbers{
+          needed(planar.has_x_m(), planar.x_m(), name + ".x_m"),
+          needed(planar.has_y_m(), planar.y_m(), name + ".y_m"),
+          needed(true, planar.z_m(), name + ".z_m"),
+          needed(planar.has_yaw_rad(), planar.yaw_rad(), name + ".yaw_rad")};
+      return base_pose(numbers[0], numbers[1], numbers[2], numbers[3]);
     }
     case v1::BasePose::kPose:
       return from_message(base.pose(), field + ".pose");

@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -21,10 +22,13 @@ class CallLimits {
   explicit CallLimits(const grpc::CallbackServerContext& context) {
     using System = std::chrono::system_clock;
     if (context.deadline() == System::time_point::max()) return;
-    // From here on by the steady clock, which nobody sets. A millisecond is left for the reply.
-    constexpr std::chrono::milliseconds kReplyTime{1};
-    stop_.deadline = received_ + std::chrono::duration_cast<StopRule::Clock::duration>(
-                                     context.deadline() - System::now() - kReplyTime);
+    // From here on by the steady clock, which nobody sets. A tenth is left for the reply's way and
+    // for the evaluation that is under way when time is over.
+    const auto left =
+        std::chrono::duration_cast<StopRule::Clock::duration>(context.deadline() - System::now());
+    constexpr StopRule::Clock::duration kLeast = std::chrono::milliseconds(1);
+    constexpr StopRule::Clock::duration kMost = std::chrono::milliseconds(50);
+    stop_.deadline = received_ + left - std::clamp(left / 10, kLeast, kMost);
   }
 
   StopRule::Clock::time_point received() const { return received_; }

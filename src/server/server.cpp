@@ -1,5 +1,6 @@
 #include "server/server.hpp"
 
+#include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -49,6 +50,11 @@ std::shared_ptr<grpc::ServerCredentials> credentials(const TlsFiles& tls) {
   return grpc::SslServerCredentials(options);
 }
 
+/// What gRPC says of sockets and peers; what matters of it comes back as an error.
+void log_grpc(gpr_log_func_args* line) {
+  spdlog::debug("event=grpc message=\"{}\"", line->message);
+}
+
 /// Files made meanwhile, sockets too, are nobody else's.
 class PrivateFiles {
  public:
@@ -91,6 +97,7 @@ struct Server::Parts {
   }
 
   void listen() {
+    gpr_set_log_function(log_grpc);
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;

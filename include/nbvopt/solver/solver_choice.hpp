@@ -11,11 +11,12 @@
 namespace nbvopt {
 
 struct SolverChoice {
-  std::optional<std::string> solver;  ///< none: "auto", or the stages below
-  std::optional<std::string> global;  ///< of StrategyOptions, "none" for no stage; none: as in auto
-  std::optional<std::string> local;
-  std::optional<std::string> polish;
-  std::vector<double> grid_steps;  ///< as SolverOptions::grid_steps
+  std::optional<std::string> solver = {};  ///< none: "auto", or the stages below
+  std::optional<std::string> global =
+      {};  ///< of StrategyOptions, "none" for no stage; none: as in auto
+  std::optional<std::string> local = {};
+  std::optional<std::string> polish = {};
+  std::vector<double> grid_steps = {};  ///< as SolverOptions::grid_steps
 
   bool operator==(const SolverChoice&) const = default;
 };

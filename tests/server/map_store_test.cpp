@@ -1,0 +1,158 @@
+#include "server/map_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <sstream>
+#include <thread>
+
+#include "nbvopt/solver/registry.hpp"
+#include "protocol/limit_error.hpp"
+#include "server/server_world.hpp"
+#include "support/error_message.hpp"
+
+namespace nbvopt {
+namespace {
+
+using ::testing::HasSubstr;
+
+MapStore make_store(const ServerLimits& limits = {}, std::uint64_t version = 1) {
+  return {test::small_robot(), limits, test::small_map(), version};
+}
+
+TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
+  MapStore store = make_store();
+  UncertaintyMap expected = test::small_map();
+  for (int i = 0; i < 10; ++i) {
+    const MapStore::Insertion insertion = store.insert(test::small_scan(), test::scan_pose(i));
+    insert_scan(expected, test::small_scan(), test::scan_pose(i), store.robot().sensor);
+    EXPECT_EQ(insertion.version, static_cast<std::uint64_t>(i + 2));
+    EXPECT_EQ(store.published()->version(), insertion.version);
+  }
+  const MapBytes bytes = store.bytes(MapFormat::uncertainty_ot);
+  EXPECT_EQ(bytes.version, 11U);
+  EXPECT_EQ(bytes.bytes, map_file_bytes(expected, MapFormat::uncertainty_ot));
+
+  const auto grid = VoxelGrid::whole(expected);
+  const PublishedMap fresh(store.robot(), grid);
+  const auto solver = make_solver("auto", {});
+  const PlanResult here = store.published()->planner().plan(test::small_request(), *solver);
+  const PlanResult there = fresh.planner().plan(test::small_request(), *solver);
+  EXPECT_EQ(here.joints, there.joints);
+  EXPECT_EQ(here.view, there.view);
+  EXPECT_EQ(here.map_version, 11U);
+}
+
+TEST(MapStore, KeepsOldVersionsForThoseWhoReadThem) {
+  MapStore store = make_store({}, 7);
+  const auto before = store.published();
+  const ViewGain gain = before->evaluator().evaluate(test::scan_pose(0));
+  store.insert(test::small_scan(), test::scan_pose(0));
+  store.clear(0.2);
+  EXPECT_EQ(before->version(), 7U);
+  EXPECT_EQ(before->evaluator().evaluate(test::scan_pose(0)), gain);
+  EXPECT_EQ(store.published()->version(), 9U);
+  EXPECT_EQ(store.published()->grid().lattice().resolution_m(), 0.2);
+  EXPECT_FALSE(store.published()->grid().has_occupied());
+}
+
+TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
+  ServerLimits limits;
+  limits.max_map_extent_m = 10.0;
+  MapStore store = make_store(limits);
+  Transform far = test::scan_pose(0);
+  far.translation().x() += 20.0;
+  const std::string before = store.bytes(MapFormat::uncertainty_ot).bytes;
+  EXPECT_THAT(test::message_of<LimitError>([&] { store.insert(test::small_scan(), far); }),
+              HasSubstr("--max-map-extent"));
+  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot).bytes, before);
+  store.insert(test::small_scan(), test::scan_pose(0));  // the refused one did not count
+}
+
+TEST(MapStore, RefusesMapsThatAreTooLarge) {
+  ServerLimits limits;
+  limits.max_map_extent_m = 10.0;
+  limits.max_map_bricks = 20;
+  MapStore store = make_store(limits);
+  UncertaintyMap wide(0.1);
+  wide.set(test::key_from_origin(0, 0, 0), test::kFree);
+  wide.set(test::key_from_origin(200, 0, 0), test::kFree);
+  wide.finish_writing();
+  EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(wide)); }),
+              HasSubstr("--max-map-extent"));
+  UncertaintyMap dense(0.02);  // one block of bricks that is free throughout
+  for (int brick = 0; brick < 21; ++brick)
+    dense.set(test::key_from_origin(32 * (brick % 5), 32 * (brick / 5), 0), test::kFree);
+  dense.finish_writing();
+  EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(dense)); }),
+              HasSubstr("--max-map-bricks"));
+  EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(0.001); }),
+              HasSubstr("--min-resolution"));
+  EXPECT_EQ(store.published()->version(), 1U);
+}
+
+TEST(MapStore, RefusesBadScansAndStaysAsItWas) {
+  MapStore store = make_store();
+  Transform bad = test::scan_pose(0);
+  bad.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(store.insert(test::small_scan(), bad), Error);
+  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.insert(test::small_scan(), test::scan_pose(0)).version, 2U);
+}
+
+TEST(MapStore, CountsWhatItHolds) {
+  MapStore store = make_store();
+  EXPECT_EQ(store.counts().counts.occupied_voxels, 200U);
+  EXPECT_DOUBLE_EQ(store.counts().counts.information, 100.0);
+  store.clear({});
+  EXPECT_EQ(store.counts().counts.occupied_voxels, 0U);
+  EXPECT_EQ(store.counts().version, 2U);
+}
+
+/// For the thread sanitizer, too: plans, copies and counts while scans come in.
+TEST(MapStoreConcurrency, EveryReaderSeesOneVersion) {
+  constexpr int kScans = 40;
+  MapStore store = make_store();
+  // What each version holds, made one after the other.
+  std::vector<ViewGain> expected;
+  {
+    MapStore alone = make_store();
+    expected.push_back(alone.published()->evaluator().evaluate(test::scan_pose(5)));
+    for (int i = 0; i < kScans; ++i) {
+      alone.insert(test::small_scan(), test::scan_pose(i));
+      expected.push_back(alone.published()->evaluator().evaluate(test::scan_pose(5)));
+    }
+  }
+  std::atomic<bool> done{false};
+  std::atomic<int> read{0};
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 2; ++i) {
+    readers.emplace_back([&] {
+      std::uint64_t last = 0;
+      do {
+        const auto map = store.published();
+        EXPECT_GE(map->version(), last);
+        last = map->version();
+        EXPECT_EQ(map->evaluator().evaluate(test::scan_pose(5)), expected[last - 1]);
+        ++read;
+      } while (!done);
+    });
+  }
+  readers.emplace_back([&] {
+    do {
+      const MapBytes bytes = store.bytes(MapFormat::uncertainty_ot);
+      std::istringstream in(bytes.bytes);
+      EXPECT_EQ(read_map(in, "copy").counts().nodes > 0, true);
+      EXPECT_GE(store.counts().version, bytes.version);
+    } while (!done);
+  });
+  for (int i = 0; i < kScans; ++i) store.insert(test::small_scan(), test::scan_pose(i));
+  done = true;
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_GT(read, 0);
+}
+
+}  // namespace
+}  // namespace nbvopt

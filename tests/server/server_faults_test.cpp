@@ -1,0 +1,243 @@
+// Faults of clients: after each the server still answers and its map is intact.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <thread>
+
+#include "server/running_server.hpp"
+#include "support/error_message.hpp"
+
+namespace nbvopt {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+v1::InsertScanRequest scan_request(int i = 0) {
+  v1::InsertScanRequest request;
+  *request.mutable_sensor() = to_message(test::scan_pose(i));
+  *request.mutable_points() = to_message(test::small_scan());
+  return request;
+}
+
+class ServerFaults : public ::testing::Test {
+ protected:
+  ~ServerFaults() override {
+    EXPECT_NE(running.client.plan(test::small_request()).result.status, PlanStatus::not_run);
+    EXPECT_EQ(running.map_bytes(), expected_bytes);
+  }
+
+  grpc::Status insert(const v1::InsertScanRequest& request) const {
+    grpc::ClientContext context;
+    v1::InsertScanReply reply;
+    return stub->InsertScan(&context, request, &reply);
+  }
+
+  test::RunningServer running{{.max_map_extent_m = 100.0, .max_waiting = 8}};
+  std::unique_ptr<v1::Planner::Stub> stub = running.stub();
+  std::string expected_bytes = map_file_bytes(test::small_map(), MapFormat::uncertainty_ot);
+};
+
+TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfAPlanStream) {
+  for (int i = 0; i < 20; ++i) {
+    grpc::ClientContext context;
+    const auto stream = stub->PlanStream(&context);
+    stream->Write(i % 2 == 0 ? test::RunningServer::long_request()
+                             : to_message(test::small_request()));
+    context.TryCancel();
+    stream->Finish();
+  }
+}
+
+TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfScans) {
+  UncertaintyMap expected = test::small_map();
+  grpc::ClientContext context;
+  v1::InsertScansReply reply;
+  const auto writer = stub->InsertScans(&context, &reply);
+  writer->Write(scan_request());
+  while (running.client.status().map_version < 2) std::this_thread::sleep_for(1ms);
+  context.TryCancel();
+  EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  insert_scan(expected, test::small_scan(), test::scan_pose(0), test::small_robot().sensor);
+  expected_bytes = map_file_bytes(expected, MapFormat::uncertainty_ot);
+}
+
+TEST_F(ServerFaults, ClientIsGoneWhileItTakesTheMap) {
+  grpc::ClientContext context;
+  const auto reader = stub->GetMap(&context, {});
+  context.TryCancel();
+  reader->Finish();
+}
+
+TEST_F(ServerFaults, HalfAScan) {
+  v1::InsertScanRequest request = scan_request();
+  request.mutable_points()->mutable_xyz_m()->resize(1001);
+  EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_F(ServerFaults, PointsThatAreNotFinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  Scan scan;
+  scan.points_m = {{nan, 0, 1}, {0, infinity, 1}, {0, 0, -infinity}};
+  scan.no_returns = {{nan, nan, nan}};
+  const ScanReceipt receipt = running.client.insert_scan(scan, test::scan_pose(0));
+  EXPECT_EQ(receipt.points_used, 0U);
+  EXPECT_EQ(receipt.voxels_changed, 0U);
+  EXPECT_EQ(receipt.points_ignored, 4U);
+}
+
+TEST_F(ServerFaults, PointsBeyondTheLattice) {
+  Scan scan;
+  scan.points_m = {{0.0F, 0.0F, 1e30F}, {3e9F, 0.0F, 1.0F}};
+  v1::InsertScanRequest request;
+  *request.mutable_sensor() = to_message(test::scan_pose(0));
+  request.mutable_sensor()->set_x_m(1e6);  // the camera, too
+  *request.mutable_points() = to_message(scan);
+  EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  request.mutable_sensor()->set_x_m(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_F(ServerFaults, DeadlinesOfNothingAndOfAMillisecond) {
+  for (const auto deadline : {-1000ms, 0ms, 1ms, 5ms}) {
+    for (int i = 0; i < 10; ++i) {
+      grpc::ClientContext context;
+      context.set_deadline(std::chrono::system_clock::now() + deadline);
+      v1::PlanReply reply;
+      const grpc::Status status = stub->Plan(&context, test::RunningServer::long_request(), &reply);
+      if (!status.ok()) {
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+      } else {
+        EXPECT_EQ(reply.status(), v1::PLAN_STATUS_TIME_LIMIT);
+      }
+    }
+  }
+}
+
+TEST_F(ServerFaults, ADeadlineIsALimitOfComputing) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + 2s);
+  v1::PlanReply reply;
+  ASSERT_TRUE(stub->Plan(&context, test::RunningServer::long_request(), &reply).ok());
+  EXPECT_EQ(reply.status(), v1::PLAN_STATUS_TIME_LIMIT);
+  EXPECT_GT(reply.evaluations(), 1);
+}
+
+TEST_F(ServerFaults, CancelledSearchesEnd) {
+  // As many as there are threads, so that a search that went on would keep the next plan waiting
+  // for the server's own limit of ten seconds.
+  for (int i = 0; i < 4; ++i) {
+    grpc::ClientContext context;
+    v1::PlanReply reply;
+    std::thread canceller([&] {
+      std::this_thread::sleep_for(20ms);
+      context.TryCancel();
+    });
+    EXPECT_EQ(stub->Plan(&context, test::RunningServer::long_request(), &reply).error_code(),
+              grpc::StatusCode::CANCELLED);
+    canceller.join();
+  }
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + 5s);
+  v1::PlanReply reply;
+  EXPECT_TRUE(stub->Plan(&context, to_message(test::small_request()), &reply).ok());
+}
+
+TEST_F(ServerFaults, TwoHundredClientsAtOnce) {
+  constexpr int kClients = 200;
+  std::atomic<int> answered{0};
+  std::atomic<int> shed{0};
+  std::vector<std::thread> clients;
+  for (int i = 0; i < kClients; ++i) {
+    clients.emplace_back([&] {
+      grpc::ChannelArguments own_connection;
+      own_connection.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+      const auto mine = v1::Planner::NewStub(grpc::CreateCustomChannel(
+          running.server.address(), grpc::InsecureChannelCredentials(), own_connection));
+      grpc::ClientContext context;
+      v1::PlanReply reply;
+      const grpc::Status status = mine->Plan(&context, to_message(test::small_request()), &reply);
+      if (status.ok()) ++answered;
+      if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) ++shed;
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(answered + shed, kClients);
+  EXPECT_GT(answered, 0);
+}
+
+TEST_F(ServerFaults, MoreThanItCanDoIsShed) {
+  // Two threads at work, eight calls waiting: the others hear so at once.
+  constexpr int kCalls = 30;
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::thread> calls;
+  std::atomic<int> shed{0};
+  for (int i = 0; i < kCalls; ++i) {
+    contexts.push_back(std::make_unique<grpc::ClientContext>());
+    calls.emplace_back([&, context = contexts.back().get()] {
+      v1::PlanReply reply;
+      const auto code =
+          stub->Plan(context, test::RunningServer::long_request(), &reply).error_code();
+      if (code == grpc::StatusCode::RESOURCE_EXHAUSTED) ++shed;
+    });
+  }
+  for (int i = 0; i < 10'000 && shed < kCalls - 10; ++i) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(shed, kCalls - 10);
+  for (const auto& context : contexts) context->TryCancel();
+  for (std::thread& call : calls) call.join();
+  v1::GetStatusReply status;
+  grpc::ClientContext context;
+  ASSERT_TRUE(stub->GetStatus(&context, {}, &status).ok());
+  EXPECT_EQ(status.latencies(0).shed(), static_cast<std::uint64_t>(kCalls - 10));
+}
+
+TEST_F(ServerFaults, AMessageThatIsTooLarge) {
+  v1::InsertScanRequest request = scan_request();
+  request.mutable_points()->mutable_xyz_m()->resize(12 << 21);
+  EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+}
+
+TEST_F(ServerFaults, AFileThatGoesWhileItLoads) {
+  const std::string file = running.folder / "going.ot";
+  int loaded = 0;
+  for (int i = 0; i < 50; ++i) {
+    write_map(test::small_map(), file, MapFormat::uncertainty_ot);
+    std::thread remover([&] { std::filesystem::remove(file); });
+    const std::string message =
+        test::message_of<ServerError>([&] { running.client.load_map("going.ot"); });
+    if (message.empty()) ++loaded;
+    remover.join();
+    if (!message.empty()) {
+      EXPECT_THAT(message, HasSubstr("No such file"));
+    }
+  }
+  EXPECT_LE(loaded, 50);
+}
+
+TEST_F(ServerFaults, StopsInTheMiddleOfCalls) {
+  test::RunningServer other;
+  const auto other_stub = other.stub();
+  std::vector<std::thread> calls;
+  for (int i = 0; i < 3; ++i) {
+    calls.emplace_back([&] {
+      grpc::ClientContext context;
+      v1::PlanReply reply;
+      EXPECT_FALSE(other_stub->Plan(&context, test::RunningServer::long_request(), &reply).ok());
+    });
+  }
+  std::this_thread::sleep_for(50ms);
+  other.client.insert_scan(test::small_scan(), test::scan_pose(0));
+  other.server.stop();
+  for (std::thread& call : calls) call.join();
+  UncertaintyMap expected = test::small_map();
+  insert_scan(expected, test::small_scan(), test::scan_pose(0), test::small_robot().sensor);
+  EXPECT_EQ(map_file_bytes(read_map(std::filesystem::path(other.folder / "snapshot.ot")),
+                           MapFormat::uncertainty_ot),
+            map_file_bytes(expected, MapFormat::uncertainty_ot));
+}
+
+}  // namespace
+}  // namespace nbvopt

@@ -1,0 +1,238 @@
+// The server through its clients: every call, and what they answer.
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <future>
+#include <thread>
+
+#include "nbvopt/solver/registry.hpp"
+#include "server/running_server.hpp"
+#include "support/error_message.hpp"
+
+namespace nbvopt {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ServerTest : public ::testing::Test {
+ protected:
+  test::RunningServer running;
+  PlannerClient& client = running.client;
+};
+
+TEST_F(ServerTest, PlansToTheLastBitAsThePlannerDoes) {
+  const UncertaintyMap map = test::small_map();
+  const Robot robot = test::small_robot();
+  const auto grid = VoxelGrid::lazy(map);
+  const Planner planner(robot, grid, make_exact_evaluator(grid, DepthCamera(robot.sensor)));
+  for (const char* solver : {"auto", "random", "nlopt:crs2"}) {
+    PlanRequest request = test::small_request();
+    request.seed = 5;
+    request.stop.max_evaluations = 150;
+    const PlanResult expected = planner.plan(request, *make_solver(solver, {}));
+    const PlanResult result = client.plan(request, {.solver = solver}).result;
+    EXPECT_EQ(result.joints, expected.joints);
+    EXPECT_EQ(result.view, expected.view);
+    EXPECT_EQ(result.current, expected.current);
+    EXPECT_EQ(result.T_map_sensor.matrix(), expected.T_map_sensor.matrix());
+    EXPECT_EQ(result.status, expected.status);
+    EXPECT_EQ(result.message, expected.message);
+    EXPECT_EQ(result.evaluations, expected.evaluations);
+    EXPECT_EQ(result.solver, solver);
+  }
+}
+
+TEST_F(ServerTest, GrowsAndGivesItsMap) {
+  UncertaintyMap expected = test::small_map();
+  for (int i = 0; i < 3; ++i) {
+    const ScanReceipt receipt = client.insert_scan(test::small_scan(), test::scan_pose(i));
+    const InsertResult result =
+        insert_scan(expected, test::small_scan(), test::scan_pose(i), test::small_robot().sensor);
+    EXPECT_EQ(receipt.map_version, static_cast<std::uint64_t>(i + 2));
+    EXPECT_EQ(receipt.voxels_changed, result.changes.size());
+    EXPECT_GE(receipt.durable_version, 1U);
+  }
+  for (const MapFormat format : {MapFormat::uncertainty_ot, MapFormat::bt, MapFormat::colour_ply}) {
+    EXPECT_EQ(client.get_map(format).bytes, map_file_bytes(expected, format));
+  }
+  EXPECT_EQ(client.get_map().map_version, 4U);
+}
+
+TEST_F(ServerTest, EvaluatesLoadsSavesClearsAndTells) {
+  const std::vector<Transform> poses{test::scan_pose(0), test::scan_pose(9)};
+  const RemoteGains gains = client.evaluate(poses);
+  ASSERT_EQ(gains.gains.size(), 2U);
+  EXPECT_EQ(client.evaluate({}).gains.size(), 0U);
+  EXPECT_EQ(client.save_map("other.bt", MapFormat::bt), 1U);
+  EXPECT_EQ(client.clear_map(0.2), 2U);
+  EXPECT_EQ(client.load_map("other.bt"), 3U);
+  const ServerStatus status = client.status(true);
+  EXPECT_EQ(status.map_version, 3U);
+  EXPECT_EQ(status.counts.occupied_voxels, 200U);
+  EXPECT_EQ(status.resolution_m, 0.1);
+  EXPECT_EQ(status.snapshot_error, "");
+  EXPECT_GE(status.durable_version, 1U);
+  EXPECT_THAT(status.versions, HasSubstr("gRPC"));
+}
+
+TEST_F(ServerTest, InsertsAStreamOfScans) {
+  const auto stub = running.stub();
+  grpc::ClientContext context;
+  v1::InsertScansReply reply;
+  const auto writer = stub->InsertScans(&context, &reply);
+  UncertaintyMap expected = test::small_map();
+  for (int i = 0; i < 20; ++i) {
+    v1::InsertScanRequest scan;
+    *scan.mutable_sensor() = to_message(test::scan_pose(i));
+    *scan.mutable_points() = to_message(test::small_scan());
+    ASSERT_TRUE(writer->Write(scan));
+    insert_scan(expected, test::small_scan(), test::scan_pose(i), test::small_robot().sensor);
+  }
+  writer->WritesDone();
+  ASSERT_TRUE(writer->Finish().ok());
+  EXPECT_EQ(reply.scans(), 20U);
+  EXPECT_EQ(reply.map_version(), 21U);
+  EXPECT_EQ(running.map_bytes(), map_file_bytes(expected, MapFormat::uncertainty_ot));
+}
+
+TEST_F(ServerTest, AnswersAStreamOfStates) {
+  const auto stub = running.stub();
+  grpc::ClientContext context;
+  const auto stream = stub->PlanStream(&context);
+  v1::PlanRequest request = to_message(test::small_request());
+  v1::PlanReply reply;
+  for (std::uint64_t id = 1; id <= 5; ++id) {
+    request.set_request_id(id);
+    ASSERT_TRUE(stream->Write(request));
+    ASSERT_TRUE(stream->Read(&reply));
+    EXPECT_EQ(reply.request_id(), id);
+    EXPECT_EQ(reply.map_version(), 1U);
+  }
+  stream->WritesDone();
+  EXPECT_FALSE(stream->Read(&reply));
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(ServerTest, AnswersTheNewestOfManyStates) {
+  const auto stub = running.stub();
+  grpc::ClientContext context;
+  const auto stream = stub->PlanStream(&context);
+  constexpr std::uint64_t kStates = 200;
+  std::thread writer([&] {
+    v1::PlanRequest request = to_message(test::small_request());
+    for (std::uint64_t id = 1; id <= kStates; ++id) {
+      request.set_request_id(id);
+      stream->Write(request);
+    }
+    stream->WritesDone();
+  });
+  std::uint64_t answers = 0;
+  std::uint64_t last = 0;
+  v1::PlanReply reply;
+  while (stream->Read(&reply)) {
+    EXPECT_GT(reply.request_id(), last);
+    last = reply.request_id();
+    ++answers;
+  }
+  writer.join();
+  EXPECT_TRUE(stream->Finish().ok());
+  EXPECT_EQ(last, kStates);  // the newest is always answered
+  EXPECT_LT(answers, kStates);
+}
+
+TEST_F(ServerTest, TellsWhatIsWrongWithACall) {
+  const auto stub = running.stub();
+  const auto code_of_plan = [&](const v1::PlanRequest& request) {
+    grpc::ClientContext context;
+    v1::PlanReply reply;
+    return stub->Plan(&context, request, &reply).error_code();
+  };
+  EXPECT_EQ(code_of_plan({}), grpc::StatusCode::INVALID_ARGUMENT);
+  v1::PlanRequest request = to_message(test::small_request());
+  request.mutable_search()->set_solver("nlopt:none");
+  EXPECT_EQ(code_of_plan(request), grpc::StatusCode::INVALID_ARGUMENT);
+  request.mutable_search()->set_solver("ceres:lm");
+  EXPECT_EQ(code_of_plan(request), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(test::message_of<ServerError>([&] { client.load_map("../map.ot"); }),
+              HasSubstr("'..' is not allowed"));
+  EXPECT_THAT(test::message_of<ServerError>([&] { client.load_map("none.ot"); }),
+              HasSubstr("No such file"));
+  EXPECT_THAT(test::message_of<ServerError>([&] { client.save_map("snapshot.ot"); }),
+              HasSubstr("own snapshot"));
+  EXPECT_THAT(test::message_of<ServerError>([&] { client.clear_map(1e-6); }),
+              HasSubstr("--min-resolution"));
+}
+
+TEST_F(ServerTest, KeepsItsSocketToItself) {
+  struct stat status {};
+  ASSERT_EQ(::stat((running.folder / "socket").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600U);
+  ServerOptions second;
+  second.new_resolution_m = 0.1;
+  second.listen = running.server.address();
+  EXPECT_THAT(test::message_of<InputError>([&] { Server server(second); }),
+              HasSubstr("another server uses this socket"));
+  second.listen = "127.0.0.1:0";
+  second.snapshot_file = running.folder / "snapshot.ot";
+  EXPECT_THAT(test::message_of<InputError>([&] { Server server(second); }),
+              HasSubstr("another server uses this snapshot"));
+  second.snapshot_file.clear();
+  Server third(second);
+  second.listen = third.address();
+  EXPECT_THAT(test::message_of<InputError>([&] { Server server(second); }),
+              HasSubstr("cannot listen on 127.0.0.1:"));
+  EXPECT_EQ(client.status().map_version, 1U);
+}
+
+TEST_F(ServerTest, HasHealthAndReflection) {
+  const auto channel =
+      grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials());
+  // grpc.health.v1.HealthCheckRequest{service: "nbvopt.v1.Planner"} as bytes.
+  grpc::GenericStub generic(channel);
+  const std::string service = "nbvopt.v1.Planner";
+  const grpc::Slice slice(std::string("\x0A") + static_cast<char>(service.size()) + service);
+  const grpc::ByteBuffer request(&slice, 1);
+  grpc::ByteBuffer reply;
+  grpc::ClientContext context;
+  std::promise<grpc::Status> done;
+  generic.UnaryCall(&context, "/grpc.health.v1.Health/Check", {}, &request, &reply,
+                    [&](grpc::Status status) { done.set_value(std::move(status)); });
+  ASSERT_TRUE(done.get_future().get().ok());
+  std::vector<grpc::Slice> slices;
+  reply.Dump(&slices);
+  ASSERT_EQ(slices.size(), 1U);
+  EXPECT_EQ(std::string(slices[0].begin(), slices[0].end()), std::string("\x08\x01"));  // SERVING
+}
+
+TEST(Server, ResumesFromItsSnapshot) {
+  const test::TemporaryFolder folder;
+  ServerOptions options;
+  options.robot = test::small_robot();
+  options.new_resolution_m = 0.1;
+  options.snapshot_file = folder / "snapshot.ot";
+  options.listen = "unix:" + (folder / "socket");
+  std::string bytes;
+  {
+    Server server(options);
+    PlannerClient client(server.address());
+    for (int i = 0; i < 3; ++i) client.insert_scan(test::small_scan(), test::scan_pose(i));
+    bytes = client.get_map().bytes;
+    server.stop();
+  }
+  Server server(options);
+  PlannerClient client(server.address());
+  EXPECT_EQ(client.status().map_version, 4U);
+  EXPECT_EQ(client.status().durable_version, 4U);
+  EXPECT_EQ(client.get_map().bytes, bytes);
+}
+
+TEST(Server, NeedsAMapToStartWith) {
+  EXPECT_THAT(test::message_of<UsageError>([] { Server server(ServerOptions{}); }),
+              HasSubstr("--create"));
+}
+
+}  // namespace
+}  // namespace nbvopt
