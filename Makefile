@@ -7,8 +7,8 @@ DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
-.PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search notebook \
-        sanitize fuzz format check-format tidy clean
+.PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search bench-server notebook \
+        sanitize sanitize-threads fuzz format check-format tidy clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
@@ -45,6 +45,9 @@ bench-search: build  ## compare searches; every query's answer lands in out/sear
 	@mkdir -p out
 	@$(BUILD)/tests/bench/nbvopt_bench_search --json out/search_quality.jsonl $(BENCH_ARGS)
 
+bench-server: build  ## measure the planning server: latency, then ten minutes of scans and plans
+	@$(BUILD)/tests/bench/nbvopt_bench_server $(BENCH_ARGS)
+
 notebook: packages-notebooks  ## draw docs/images/search_quality.png from what bench-search wrote
 	@test -f out/search_quality.jsonl || { echo "out/search_quality.jsonl is missing: run make bench-search first" >&2; exit 1; }
 	@PYDEVD_DISABLE_FILE_VALIDATION=1 jupyter-nbconvert --log-level=WARN --to notebook --execute --output-dir out notebooks/search_quality.ipynb
@@ -52,7 +55,10 @@ notebook: packages-notebooks  ## draw docs/images/search_quality.png from what b
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
 
-fuzz: packages-ci  ## fuzz the readers, 20 seconds each
+sanitize-threads:  ## run the server's tests under the thread sanitizer
+	@$(MAKE) --no-print-directory test PRESET=thread
+
+fuzz: packages-ci  ## fuzz the readers and the server, 20 seconds each
 	@cmake --preset fuzz --log-level=WARNING
 	@cmake --build --preset fuzz
 	@ctest --preset fuzz --output-junit junit.xml

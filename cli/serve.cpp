@@ -61,20 +61,20 @@ void set_up_log(const std::string& level) {
 }
 
 void check_positive(const char* option, double value, const char* unit) {
-  if (value > 0.0) return;
+  constexpr double kMost = 1e9;
+  if (value > 0.0 && value <= kMost) return;
   throw InputError(std::string(option) + " is " + format_number(value) + unit +
-                   ", it must be positive");
+                   ", it must be positive and at most " + format_number(kMost));
 }
 
 void run_serve(ServeOptions& options) {
-  constexpr double kLongest_s = 1e9;
   ServerOptions& server_options = options.server;
   check_positive("--snapshot-every", options.snapshot_every_s, " s");
-  check_positive("--max-compute-ms", server_options.limits.max_compute_ms, "");
+  check_positive("--max-compute-ms", server_options.limits.max_compute_ms, " ms");
   check_positive("--max-map-extent", server_options.limits.max_map_extent_m, " m");
   check_positive("--min-resolution", server_options.limits.min_resolution_m, " m");
   server_options.snapshot_every =
-      std::chrono::milliseconds(std::llround(std::min(options.snapshot_every_s, kLongest_s) * 1e3));
+      std::chrono::milliseconds(std::llround(options.snapshot_every_s * 1e3));
   server_options.robot = make_robot(options.robot);
   server_options.planning_threads = options.robot.threads > 0
                                         ? static_cast<std::size_t>(options.robot.threads)

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
 #include "protocol/limit_error.hpp"
 
 namespace nbvopt {
@@ -33,9 +34,19 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
   extent_m.extend(T_map_sensor.translation() + reach_m);
   check_extent(extent_m);
 
-  Insertion insertion{.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor)};
-  extent_m_ = extent_m;
-  publish(grid_->updated(insertion.result.changes));
+  Insertion insertion;
+  try {
+    insertion.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor);
+    extent_m_ = extent_m;
+    publish(is_grid_behind_ ? VoxelGrid::whole(map_, grid_->version() + 1)
+                            : grid_->updated(insertion.result.changes));
+  } catch (const Error&) {  // the scan was refused, the tree is untouched
+    throw;
+  } catch (...) {  // out of memory, say: the tree may hold what the grid does not
+    is_grid_behind_ = true;
+    throw;
+  }
+  is_grid_behind_ = false;
   insertion.version = grid_->version();
   return insertion;
 }
@@ -46,6 +57,7 @@ std::uint64_t MapStore::replace(UncertaintyMap map) {
   publish(VoxelGrid::whole(map, grid_->version() + 1));
   map_ = std::move(map);
   extent_m_ = extent_m;
+  is_grid_behind_ = false;
   return grid_->version();
 }
 

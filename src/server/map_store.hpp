@@ -75,6 +75,7 @@ class MapStore {
   UncertaintyMap map_;
   Eigen::AlignedBox3d extent_m_;  ///< of what is known, with the reach of all scans
   std::shared_ptr<const VoxelGrid> grid_;
+  bool is_grid_behind_ = false;  ///< an insertion failed half way: the next one reads all bricks
   mutable VersionedCounts counts_;
 
   mutable std::mutex published_mutex_;  ///< held for the copy of one pointer

@@ -14,7 +14,8 @@ PlannerService::PlannerService(RequestHandler& handler, std::size_t planning_thr
     : handler_(handler),
       planning_(planning_threads, static_cast<std::size_t>(handler.limits().max_waiting)),
       mapping_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
-      storage_(1, static_cast<std::size_t>(handler.limits().max_waiting)) {}
+      storage_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
+      status_(1, static_cast<std::size_t>(handler.limits().max_waiting)) {}
 
 ServerUnaryReactor* PlannerService::Plan(CallbackServerContext* context,
                                          const v1::PlanRequest* request, v1::PlanReply* reply) {
@@ -78,7 +79,7 @@ ServerUnaryReactor* PlannerService::ClearMap(CallbackServerContext* context,
 ServerUnaryReactor* PlannerService::GetStatus(CallbackServerContext* context,
                                               const v1::GetStatusRequest* request,
                                               v1::GetStatusReply* reply) {
-  return start_call(*context, log_, Method::get_status, storage_, [=, this](const CallLimits&) {
+  return start_call(*context, log_, Method::get_status, status_, [=, this](const CallLimits&) {
     *reply = handler_.status(*request);
     const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - start_;
     reply->set_uptime_s(uptime.count());

@@ -2,7 +2,8 @@
 //
 // gRPC's own threads only move messages. Plans and evaluations share threads of their own; all that
 // changes the map is done by one thread, in order; what waits for the disk or copies a whole map by
-// a third, so that neither keeps plans or scans waiting. A full queue sheds the call.
+// another, so that neither keeps plans or scans waiting; and the status is told whatever else goes
+// on. A full queue sheds the call.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -55,6 +56,7 @@ class PlannerService final : public v1::Planner::CallbackService {
   WorkQueue planning_;
   WorkQueue mapping_;
   WorkQueue storage_;
+  WorkQueue status_;
 };
 
 }  // namespace nbvopt

@@ -7,6 +7,6 @@ foreach(command
     "--build;${WORK_DIR}/build")
   execute_process(COMMAND ${CMAKE_COMMAND} ${command} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
-foreach(program consumer sim_consumer)
+foreach(program consumer sim_consumer client_consumer)
   execute_process(COMMAND ${WORK_DIR}/build/${program} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

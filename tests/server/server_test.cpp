@@ -17,6 +17,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+std::string text_of(const grpc::ByteBuffer& bytes) {
+  std::vector<grpc::Slice> slices;
+  bytes.Dump(&slices);
+  std::string text;
+  for (const grpc::Slice& slice : slices) text.append(slice.begin(), slice.end());
+  return text;
+}
+
 class ServerTest : public ::testing::Test {
  protected:
   test::RunningServer running;
@@ -187,7 +195,7 @@ TEST_F(ServerTest, KeepsItsSocketToItself) {
   EXPECT_EQ(client.status().map_version, 1U);
 }
 
-TEST_F(ServerTest, HasHealthAndReflection) {
+TEST_F(ServerTest, TellsItsHealth) {
   const auto channel =
       grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials());
   // grpc.health.v1.HealthCheckRequest{service: "nbvopt.v1.Planner"} as bytes.
@@ -201,10 +209,37 @@ TEST_F(ServerTest, HasHealthAndReflection) {
   generic.UnaryCall(&context, "/grpc.health.v1.Health/Check", {}, &request, &reply,
                     [&](grpc::Status status) { done.set_value(std::move(status)); });
   ASSERT_TRUE(done.get_future().get().ok());
-  std::vector<grpc::Slice> slices;
-  reply.Dump(&slices);
-  ASSERT_EQ(slices.size(), 1U);
-  EXPECT_EQ(std::string(slices[0].begin(), slices[0].end()), std::string("\x08\x01"));  // SERVING
+  EXPECT_EQ(text_of(reply), "\x08\x01");  // SERVING
+}
+
+TEST_F(ServerTest, TellsItsServicesByReflection) {
+  const auto channel =
+      grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials());
+  grpc::GenericStub generic(channel);
+  grpc::ClientContext context;
+  grpc::CompletionQueue queue;
+  const auto step = [&queue] {
+    void* tag = nullptr;
+    bool ok = false;
+    return queue.Next(&tag, &ok) && ok;
+  };
+  const auto call = generic.PrepareCall(
+      &context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
+  call->StartCall(nullptr);
+  ASSERT_TRUE(step());
+  // ServerReflectionRequest{list_services: ""} as bytes.
+  const grpc::Slice slice(std::string("\x3A\x00", 2));
+  call->Write(grpc::ByteBuffer(&slice, 1), nullptr);
+  ASSERT_TRUE(step());
+  grpc::ByteBuffer reply;
+  call->Read(&reply, nullptr);
+  ASSERT_TRUE(step());
+  EXPECT_THAT(text_of(reply), HasSubstr("nbvopt.v1.Planner"));
+  EXPECT_THAT(text_of(reply), HasSubstr("grpc.health.v1.Health"));
+  context.TryCancel();
+  grpc::Status status;
+  call->Finish(&status, nullptr);
+  step();
 }
 
 TEST(Server, ResumesFromItsSnapshot) {

@@ -21,6 +21,7 @@ class BackgroundProcess {
   /// The next line of its standard output, waited for; empty when there is none any more.
   std::string read_line();
 
+  pid_t id() const { return pid_; }
   void send(int signal) const;
 
   /// Waits for its end; the exit code, -1 when a signal ended it.
