@@ -36,6 +36,7 @@ class EndSignals {
     ::sigemptyset(&signals_);
     ::sigaddset(&signals_, SIGTERM);
     ::sigaddset(&signals_, SIGINT);
+    ::sigaddset(&signals_, SIGHUP);  // the terminal is closed
     ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
     ::signal(SIGPIPE, SIG_IGN);  // a log that nobody reads any more
     ::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing it
@@ -70,6 +71,7 @@ void check_positive(const char* option, double value, const char* unit) {
 void run_serve(ServeOptions& options) {
   ServerOptions& server_options = options.server;
   check_positive("--snapshot-every", options.snapshot_every_s, " s");
+  options.snapshot_every_s = std::max(options.snapshot_every_s, 1e-3);
   check_positive("--max-compute-ms", server_options.limits.max_compute_ms, " ms");
   check_positive("--max-map-extent", server_options.limits.max_map_extent_m, " m");
   check_positive("--min-resolution", server_options.limits.min_resolution_m, " m");
@@ -113,10 +115,11 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
   add_whole_number(serve, "--max-views", limits.max_views, 1, kMost, "of a call of Evaluate");
   add_number(serve, "--max-map-extent", limits.max_map_extent_m, "M", "the map's longest side");
   add_number(serve, "--min-resolution", limits.min_resolution_m, "M", "the map's smallest voxels");
-  add_whole_number(serve, "--max-map-bricks", limits.max_map_bricks, 1, kMost,
-                   "of 32 x 32 x 32 voxels that a map to load may know of, 45 kB each");
+  add_whole_number(serve, "--max-map-mib", limits.max_map_mib, 1, kMost,
+                   "of the map that plans read; a brick of 32 x 32 x 32 voxels takes 45 kB");
   add_number(serve, "--max-compute-ms", limits.max_compute_ms, "MS",
              "of a plan or a call of Evaluate");
+  add_whole_number(serve, "--max-streams", limits.max_streams, 1, kMost, "that are open");
   add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,
                    "calls that wait for a thread; more are refused with RESOURCE_EXHAUSTED");
 }

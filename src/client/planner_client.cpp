@@ -12,10 +12,15 @@
 namespace nbvopt {
 namespace {
 
-ServerErrorKind kind_of(grpc::StatusCode code) {
-  switch (code) {
+/// gRPC refuses a message that is too large with the code of a server that is busy.
+bool is_too_large(const grpc::Status& status) {
+  return status.error_message().find("larger than max") != std::string::npos;
+}
+
+ServerErrorKind kind_of(const grpc::Status& status) {
+  switch (status.error_code()) {
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
-      return ServerErrorKind::busy;
+      return is_too_large(status) ? ServerErrorKind::bad_request : ServerErrorKind::busy;
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return ServerErrorKind::timeout;
     case grpc::StatusCode::CANCELLED:
@@ -71,7 +76,8 @@ struct PlannerClient::Connection {
     const std::string reason = status.error_code() == grpc::StatusCode::UNAVAILABLE
                                    ? "no server answers there (" + status.error_message() + ")"
                                    : status.error_message();
-    throw ServerError(kind_of(status.error_code()), address + ": " + reason);
+    const std::string remedy = is_too_large(status) ? ": the server's --max-message-mib" : "";
+    throw ServerError(kind_of(status), address + ": " + reason + remedy);
   }
 
   /// One unary call.
@@ -129,6 +135,7 @@ ScanReceipt PlannerClient::insert_scan(const Scan& scan, const Transform& T_map_
   const v1::InsertScanReply reply = connection_->call(&v1::Planner::Stub::InsertScan, message);
   return {.map_version = reply.map_version(),
           .durable_version = reply.durable_version(),
+          .run_id = reply.run_id(),
           .points_used = reply.points_used(),
           .rays_cleared = reply.rays_cleared(),
           .points_ignored = reply.points_ignored(),
@@ -180,6 +187,7 @@ ServerStatus PlannerClient::status(bool with_counts) {
           .uptime_s = reply.uptime_s(),
           .map_version = reply.map_version(),
           .durable_version = reply.durable_version(),
+          .run_id = reply.run_id(),
           .snapshot_error = reply.snapshot_error(),
           .resolution_m = reply.resolution_m(),
           .scans = reply.scans(),

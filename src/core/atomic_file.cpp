@@ -4,8 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
-#include <cstdlib>
+#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -22,22 +23,41 @@ namespace fs = std::filesystem;
   throw InputError(path.string() + ": cannot be written: " + what);
 }
 
-std::string reason() { return std::generic_category().message(errno); }
+/// What stands between a file's name and the random letters of a temporary one.
+constexpr std::string_view kUnfinished = ".nbvopt-unfinished-";
 
-/// Removes a file unless the caller keeps it.
-class RemovedUnlessKept {
+[[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
+
+/// A new file beside the one of that name, removed unless it takes that name.
+class TemporaryFile {
  public:
-  explicit RemovedUnlessKept(const std::string& name) : name_(name) {}
-  RemovedUnlessKept(const RemovedUnlessKept&) = delete;
-  RemovedUnlessKept& operator=(const RemovedUnlessKept&) = delete;
-  ~RemovedUnlessKept() {
-    if (!is_kept_) ::unlink(name_.c_str());
+  TemporaryFile(int folder, const std::string& name) : folder_(folder) {
+    static std::atomic<std::uint64_t> count{0};
+    do {
+      temporary_ = name + std::string(kUnfinished) + std::to_string(::getpid()) + '-' +
+                   std::to_string(count++);
+      file_ = Descriptor(::openat(folder, temporary_.c_str(),
+                                  O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+    } while (!file_.is_open() && errno == EEXIST);  // of a killed process with the same number
+    if (!file_.is_open()) fail();
   }
-  void keep() { is_kept_ = true; }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (!temporary_.empty()) ::unlinkat(folder_, temporary_.c_str(), 0);
+  }
+
+  Descriptor& file() { return file_; }
+
+  void rename_to(const std::string& name) {
+    if (::renameat(folder_, temporary_.c_str(), folder_, name.c_str()) != 0) fail();
+    temporary_.clear();
+  }
 
  private:
-  std::string name_;
-  bool is_kept_ = false;
+  int folder_;
+  std::string temporary_;
+  Descriptor file_{-1};
 };
 
 bool write_all(int descriptor, std::string_view bytes) {
@@ -52,16 +72,7 @@ bool write_all(int descriptor, std::string_view bytes) {
 
 void write_in_place(const fs::path& path, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (!file.is_open() || !write_all(file.get(), bytes) || !file.close()) refuse(path, reason());
-}
-
-/// What a new file's permissions are: those of the file that it replaces, or the user's default.
-mode_t permissions_for(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
+  if (!file.is_open() || !write_all(file.get(), bytes) || !file.close()) fail();
 }
 
 /// The file that `path` leads to, links followed. Refuses a folder, and a folder that is missing.
@@ -77,19 +88,22 @@ fs::path checked_target(const fs::path& path) {
   return target;
 }
 
-/// Opens a new file beside the target and gives its name.
-int create_beside(const fs::path& path, const fs::path& target, std::string& temporary) {
-  temporary = target.string() + ".XXXXXX";
-  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) refuse(path, reason());
+/// The folder of a target, open.
+Descriptor open_folder(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor.is_open()) fail();
   return descriptor;
 }
 
-/// The new name, too, outlives a loss of power from here on. Not every file system can say so.
-void sync_folder(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.is_open()) ::fsync(descriptor.get());
+/// Calls `write` and tells of its failure as of one of `path`.
+template <typename Write>
+void naming(const fs::path& path, const Write& write) {
+  try {
+    write();
+  } catch (const std::system_error& error) {
+    refuse(path, error.code().message());
+  }
 }
 
 }  // namespace
@@ -97,25 +111,43 @@ void sync_folder(const fs::path& target) {
 void require_writable(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_other(fs::status(path, ignored))) return;
-  std::string temporary;
-  const Descriptor file(create_beside(path, checked_target(path), temporary));
-  const RemovedUnlessKept guard(temporary);
+  const fs::path target = checked_target(path);
+  naming(path, [&] {
+    const Descriptor folder = open_folder(target);
+    const TemporaryFile file(folder.get(), target.filename().string());
+  });
+}
+
+void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes) {
+  TemporaryFile temporary(folder, name);
+  Descriptor& file = temporary.file();
+  struct stat replaced {};
+  const bool replaces = ::fstatat(folder, name.c_str(), &replaced, AT_SYMLINK_NOFOLLOW) == 0;
+  if (replaces && ::fchmod(file.get(), replaced.st_mode & 07777) != 0) fail();
+  if (!write_all(file.get(), bytes) || ::fsync(file.get()) != 0 || !file.close()) fail();
+  temporary.rename_to(name);
+  // The new name, too, outlives a loss of power from here on. Not every file system can say so.
+  ::fsync(folder);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  naming(path, [&] {
+    std::error_code ignored;
+    if (fs::is_other(fs::status(path, ignored))) return write_in_place(path, bytes);
+    const fs::path target = checked_target(path);
+    const Descriptor folder = open_folder(target);
+    write_file_atomically_at(folder.get(), target.filename().string(), bytes);
+  });
+}
+
+void remove_unfinished_files(const fs::path& path) {
   std::error_code ignored;
-  if (fs::is_other(fs::status(path, ignored))) return write_in_place(path, bytes);
-  const fs::path target = checked_target(path);
-  std::string temporary;
-  Descriptor file(create_beside(path, target, temporary));
-  RemovedUnlessKept guard(temporary);
-  if (::fchmod(file.get(), permissions_for(target)) != 0 || !write_all(file.get(), bytes) ||
-      ::fsync(file.get()) != 0 || !file.close() ||
-      ::rename(temporary.c_str(), target.c_str()) != 0) {
-    refuse(path, reason());
+  const fs::path target = fs::weakly_canonical(path, ignored);
+  const std::string stem = target.filename().string() + std::string(kUnfinished);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().filename().string().starts_with(stem)) fs::remove(entry.path(), ignored);
   }
-  guard.keep();
-  sync_folder(target);
 }
 
 }  // namespace nbvopt

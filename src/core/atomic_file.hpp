@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace nbvopt {
@@ -12,8 +13,15 @@ namespace nbvopt {
 /// existing file keeps its permissions; a device or pipe is written in place.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// The same for the file of that name in an open folder; a link is replaced, not followed. Throws
+/// std::system_error.
+void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes);
+
 /// Throws InputError as write_file_atomically() would for a folder that is missing or not writable:
 /// to refuse a file before the work whose result it should hold.
 void require_writable(const std::filesystem::path& path);
+
+/// Removes the temporary files of writers of `path` that were killed. Nobody may be writing it.
+void remove_unfinished_files(const std::filesystem::path& path);
 
 }  // namespace nbvopt

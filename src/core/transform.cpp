@@ -29,6 +29,9 @@ Transform pose_from_quaternion(const std::array<double, 3>& position_m,
                              orientation_xyzw[2]);
   if (!position.allFinite()) throw InputError("position: every number must be finite");
   if (!q.coeffs().allFinite()) throw InputError("orientation_xyzw: every number must be finite");
+  if (!std::isfinite(q.norm())) {
+    throw InputError("orientation_xyzw: the quaternion is too long, give one of length 1");
+  }
   if (q.norm() < 1e-9) {
     throw InputError("orientation_xyzw: the quaternion has length zero, give a rotation");
   }

@@ -46,7 +46,7 @@ class PlanningNode:
         # An image that waits is replaced by a newer one. Images are larger than rospy's buffer,
         # and what is left in it would be read late.
         rospy.Subscriber("depth/image", Image, self._on_image, queue_size=1, buff_size=2**24)
-        rospy.Timer(rospy.Duration(self._motion_time_s), self._plan)
+        rospy.Timer(rospy.Duration(max(self._motion_time_s, 0.1)), self._plan)
 
     def _on_camera_info(self, info: CameraInfo) -> None:
         fx_px, _, cx_px, _, _, fy_px, cy_px = info.P[:7]

@@ -51,20 +51,20 @@ bool is_link(int folder, const char* name) {
 
 }  // namespace
 
-DataFolder::DataFolder(const fs::path& folder, fs::path kept_file)
+DataFolder::DataFolder(const fs::path& folder, std::vector<fs::path> kept_files)
     : folder_(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)),
-      kept_file_(std::move(kept_file)) {
+      kept_files_(std::move(kept_files)) {
   if (folder_.is_open()) return;
   throw InputError(folder.string() +
                    ": cannot be the data folder: " + std::generic_category().message(errno));
 }
 
 Descriptor DataFolder::open_parent(const fs::path& path) const {
-  Descriptor folder(::openat(folder_.get(), ".", O_PATH | O_DIRECTORY | O_CLOEXEC));
+  Descriptor folder(::openat(folder_.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   for (const fs::path& part : path.parent_path()) {
     const bool leads_out = is_link(folder.get(), part.c_str());
     Descriptor next(
-        ::openat(folder.get(), part.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+        ::openat(folder.get(), part.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (leads_out) errno = ELOOP;
     if (leads_out || !next.is_open()) refuse_to_open(path);
     folder = std::move(next);
@@ -93,20 +93,24 @@ void DataFolder::write(const std::string& text, std::string_view bytes) const {
     errno = ELOOP;
     refuse_to_open(path);
   }
-  struct stat kept {};
+  const std::string name = path.filename().string();
   struct stat target {};
-  if (!kept_file_.empty() && ::stat(kept_file_.c_str(), &kept) == 0 &&
-      ::fstatat(parent.get(), path.filename().c_str(), &target, AT_SYMLINK_NOFOLLOW) == 0 &&
-      kept.st_dev == target.st_dev && kept.st_ino == target.st_ino) {
-    throw RequestError(grpc::StatusCode::PERMISSION_DENIED,
-                       "'" + text + "': this is the server's own snapshot, name another file");
+  const bool is_there = ::fstatat(parent.get(), name.c_str(), &target, AT_SYMLINK_NOFOLLOW) == 0;
+  if (is_there && !S_ISREG(target.st_mode)) {
+    throw RequestError(grpc::StatusCode::INVALID_ARGUMENT, "'" + text + "': not a file");
   }
-  const std::string folder = "/proc/self/fd/" + std::to_string(parent.get());
+  for (const fs::path& kept_file : kept_files_) {
+    struct stat kept {};
+    if (is_there && ::stat(kept_file.c_str(), &kept) == 0 && kept.st_dev == target.st_dev &&
+        kept.st_ino == target.st_ino) {
+      throw RequestError(grpc::StatusCode::PERMISSION_DENIED,
+                         "'" + text + "': this is the server's own file, name another");
+    }
+  }
   try {
-    write_file_atomically(fs::path(folder) / path.filename(), bytes);
-  } catch (const InputError& error) {  // which names the folder as above
-    const std::string what = error.what();
-    throw InputError("'" + text + "'" + what.substr(what.find(": ")));
+    write_file_atomically_at(parent.get(), name, bytes);
+  } catch (const std::system_error& error) {
+    throw InputError("'" + text + "': cannot be written: " + error.code().message());
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/descriptor.hpp"
 
@@ -12,15 +14,15 @@ namespace nbvopt {
 /// while they are opened, so that nobody can exchange a folder in between.
 class DataFolder {
  public:
-  /// Clients may not write `kept_file`, wherever that is: the server's snapshot; empty: none.
+  /// Clients may not write `kept_files`, wherever they are: the server's own.
   /// Throws InputError when there is no such folder.
-  explicit DataFolder(const std::filesystem::path& folder, std::filesystem::path kept_file = {});
+  explicit DataFolder(const std::filesystem::path& folder,
+                      std::vector<std::filesystem::path> kept_files = {});
 
   /// A file for reading. Throws RequestError: a path that leads out, a link, no such file.
   Descriptor open(const std::string& path) const;
 
-  /// Writes a file atomically. Throws RequestError as above, and InputError as
-  /// write_file_atomically() does.
+  /// Writes a file atomically. Throws RequestError as above, and InputError when the disk is full.
   void write(const std::string& path, std::string_view bytes) const;
 
  private:
@@ -28,7 +30,7 @@ class DataFolder {
   Descriptor open_parent(const std::filesystem::path& path) const;
 
   Descriptor folder_;
-  std::filesystem::path kept_file_;
+  std::vector<std::filesystem::path> kept_files_;
 };
 
 }  // namespace nbvopt

@@ -11,8 +11,20 @@
 
 namespace nbvopt {
 
+namespace {
+
+/// Whatever link leads to the file, its lock is the same.
+std::filesystem::path lock_path(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, ignored);
+  return (resolved.empty() ? path : resolved).string() + ".lock";
+}
+
+}  // namespace
+
 FileLock::FileLock(const std::filesystem::path& path, const char* use)
-    : file_(::open((path.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+    : path_(lock_path(path)),
+      file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600)) {
   const std::string name = path.string();
   if (!file_.is_open()) {
     throw InputError(name + ".lock: cannot be made: " + std::generic_category().message(errno));

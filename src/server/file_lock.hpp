@@ -13,7 +13,10 @@ class FileLock {
   /// when another process holds it or when it cannot be made; `use` says what it protects.
   FileLock(const std::filesystem::path& path, const char* use);
 
+  const std::filesystem::path& path() const { return path_; }
+
  private:
+  std::filesystem::path path_;
   Descriptor file_;
 };
 

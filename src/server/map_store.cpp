@@ -1,5 +1,6 @@
 #include "server/map_store.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "core/number.hpp"
@@ -28,24 +29,27 @@ void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
 
 MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_sensor) {
   const std::scoped_lock lock(tree_mutex_);
+  check_size(static_cast<double>(grid_->memory_bytes()));
   Eigen::AlignedBox3d extent_m = extent_m_;
   const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(robot_.sensor.longest_range_m());
   extent_m.extend(T_map_sensor.translation() - reach_m);
   extent_m.extend(T_map_sensor.translation() + reach_m);
   check_extent(extent_m);
+  if (is_grid_behind_) publish_whole();
+  is_grid_behind_ = false;
 
   Insertion insertion;
   try {
     insertion.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor);
-    extent_m_ = extent_m;
-    publish(is_grid_behind_ ? VoxelGrid::whole(map_, grid_->version() + 1)
-                            : grid_->updated(insertion.result.changes));
-  } catch (const Error&) {  // the scan was refused, the tree is untouched
+  } catch (const Error&) {  // refused: the tree is untouched
     throw;
-  } catch (...) {  // out of memory, say: the tree may hold what the grid does not
+  } catch (...) {
     is_grid_behind_ = true;
     throw;
   }
+  extent_m_ = extent_m;
+  is_grid_behind_ = true;
+  publish(grid_->updated(insertion.result.changes));
   is_grid_behind_ = false;
   insertion.version = grid_->version();
   return insertion;
@@ -66,9 +70,16 @@ std::uint64_t MapStore::clear(std::optional<double> resolution_m) {
   return replace(UncertaintyMap(resolution_m.value_or(same_m)));
 }
 
-MapBytes MapStore::bytes(MapFormat format) const {
+std::shared_ptr<const MapBytes> MapStore::bytes(MapFormat format) const {
   const std::scoped_lock lock(tree_mutex_);
-  return {map_file_bytes(map_, format), grid_->version()};
+  std::weak_ptr<const MapBytes>& last = bytes_[format];
+  std::shared_ptr<const MapBytes> bytes = last.lock();
+  if (bytes == nullptr || bytes->version != grid_->version()) {
+    bytes =
+        std::make_shared<const MapBytes>(MapBytes{map_file_bytes(map_, format), grid_->version()});
+    last = bytes;
+  }
+  return bytes;
 }
 
 VersionedCounts MapStore::counts() const {
@@ -86,11 +97,20 @@ void MapStore::check_extent(const Eigen::AlignedBox3d& box_m) const {
                    format_number(limits_.max_map_extent_m) + " m (--max-map-extent)");
 }
 
+void MapStore::check_size(double bytes) const {
+  const double mib = bytes / (1 << 20);
+  if (mib <= static_cast<double>(limits_.max_map_mib)) return;
+  throw LimitError("the map takes " + format_number(std::round(mib)) + " MiB, the limit is " +
+                   std::to_string(limits_.max_map_mib) + " MiB (--max-map-mib)");
+}
+
 Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const {
-  if (map.resolution_m() < limits_.min_resolution_m) {
+  if (map.resolution_m() < limits_.min_resolution_m ||
+      map.resolution_m() > limits_.max_map_extent_m) {
     throw LimitError("the map's voxels would be " + format_number(map.resolution_m()) +
-                     " m wide, the limit is " + format_number(limits_.min_resolution_m) +
-                     " m (--min-resolution)");
+                     " m wide, the limits are " + format_number(limits_.min_resolution_m) +
+                     " m (--min-resolution) and " + format_number(limits_.max_map_extent_m) +
+                     " m (--max-map-extent)");
   }
   Eigen::AlignedBox3d box_m;
   if (const auto box = map.known_box()) {
@@ -98,12 +118,8 @@ Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const 
     box_m.extend(map.lattice().centre_m(box->max));
   }
   check_extent(box_m);
-  const std::uint64_t bricks = map.known_bricks();
-  if (bricks > static_cast<std::uint64_t>(limits_.max_map_bricks)) {
-    throw LimitError("the map holds " + std::to_string(bricks) +
-                     " bricks of 32 voxels a side, the limit is " +
-                     std::to_string(limits_.max_map_bricks) + " (--max-map-bricks)");
-  }
+  constexpr double kBytesPerBrick = 45e3;
+  check_size(static_cast<double>(map.known_bricks()) * kBytesPerBrick);
   return box_m;
 }
 

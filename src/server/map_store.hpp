@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -45,7 +46,7 @@ class MapStore {
     std::uint64_t version = 0;  ///< the first that holds the scan
   };
   /// Inserts a scan and publishes the map with it. Throws as insert_scan() does, and LimitError
-  /// when the scan would stretch the map beyond its largest extent; the map is then untouched.
+  /// when the map is full or the scan would stretch it too far; the map is then untouched.
   Insertion insert(const Scan& scan, const Transform& T_map_sensor);
 
   /// Publishes another map in place of this one and returns its version. Throws LimitError when it
@@ -56,7 +57,8 @@ class MapStore {
   /// Throws as UncertaintyMap does.
   std::uint64_t clear(std::optional<double> resolution_m);
 
-  MapBytes bytes(MapFormat format) const;
+  /// The newest version as a file, shared by all who ask for it at the same time.
+  std::shared_ptr<const MapBytes> bytes(MapFormat format) const;
 
   /// Counts, kept until the map changes.
   VersionedCounts counts() const;
@@ -66,7 +68,10 @@ class MapStore {
   void check_extent(const Eigen::AlignedBox3d& box_m) const;
   /// The same for a whole map and all limits; returns its box in the map frame.
   Eigen::AlignedBox3d checked_extent_m(const UncertaintyMap& map) const;
+  void check_size(double bytes) const;
   void publish(std::shared_ptr<const VoxelGrid> grid);
+  /// Publishes the tree as it is, whatever the grid holds.
+  void publish_whole() { publish(VoxelGrid::whole(map_, grid_->version() + 1)); }
 
   const Robot robot_;
   const ServerLimits limits_;
@@ -75,8 +80,9 @@ class MapStore {
   UncertaintyMap map_;
   Eigen::AlignedBox3d extent_m_;  ///< of what is known, with the reach of all scans
   std::shared_ptr<const VoxelGrid> grid_;
-  bool is_grid_behind_ = false;  ///< an insertion failed half way: the next one reads all bricks
+  bool is_grid_behind_ = false;  ///< an insertion failed half way, out of memory, say
   mutable VersionedCounts counts_;
+  mutable std::map<MapFormat, std::weak_ptr<const MapBytes>> bytes_;
 
   mutable std::mutex published_mutex_;  ///< held for the copy of one pointer
   std::shared_ptr<const PublishedMap> published_;

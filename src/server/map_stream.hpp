@@ -1,10 +1,10 @@
 // GetMap: the bytes of a map file, in chunks as the client takes them.
 #pragma once
 
-#include <algorithm>
-#include <string>
+#include <memory>
 
 #include "nbvopt/v1/planner.pb.h"
+#include "server/open_streams.hpp"
 #include "server/queued_call.hpp"
 #include "server/request_handler.hpp"
 
@@ -14,42 +14,46 @@ namespace nbvopt {
 class MapStreamCall final : public grpc::ServerWriteReactor<v1::MapChunk> {
  public:
   MapStreamCall(const v1::GetMapRequest& request, const RequestHandler& handler, CallLog& log,
-                WorkQueue& queue)
-      : request_(request), handler_(handler), log_(log) {
-    if (queue.try_post([this] { copy_map(); })) return;
+                WorkQueue& queue, OpenStreams& streams)
+      : request_(request), handler_(handler), log_(log), place_(streams) {
+    if (place_.is_taken() && queue.try_post([this] { copy_map(); })) return;
     log_.record_shed(Method::get_map);
     Finish(shed_status());
   }
 
  private:
   void copy_map() {
+    if (cancel_.is_cancelled()) return Finish(grpc::Status::CANCELLED);
     const grpc::Status status =
         logged(log_, Method::get_map, received_, [this] { map_ = handler_.get_map(request_); });
     if (!status.ok()) return Finish(status);
-    chunk_.set_map_version(map_.version);
-    chunk_.set_total_bytes(map_.bytes.size());
+    chunk_.set_map_version(map_->version);
+    chunk_.set_total_bytes(map_->bytes.size());
     write_chunk();
   }
 
   void write_chunk() {
     constexpr std::size_t kChunkBytes = 1 << 20;
-    chunk_.set_data(map_.bytes.substr(sent_, kChunkBytes));
+    chunk_.set_data(map_->bytes.substr(sent_, kChunkBytes));
     sent_ += chunk_.data().size();
     StartWrite(&chunk_);
   }
 
   void OnWriteDone(bool ok) override {
-    if (!ok || sent_ == map_.bytes.size()) return Finish(grpc::Status::OK);
+    if (!ok || sent_ == map_->bytes.size()) return Finish(grpc::Status::OK);
     write_chunk();
   }
 
+  void OnCancel() override { cancel_.cancel(); }
   void OnDone() override { delete this; }
 
   const v1::GetMapRequest request_;
   const RequestHandler& handler_;
   CallLog& log_;
   const StopRule::Clock::time_point received_ = StopRule::Clock::now();
-  MapBytes map_;
+  const OpenStreams::Place place_;
+  const CancelToken cancel_;
+  std::shared_ptr<const MapBytes> map_;
   std::size_t sent_ = 0;
   v1::MapChunk chunk_;
 };

@@ -5,9 +5,15 @@
 namespace nbvopt {
 
 PlanStreamCall::PlanStreamCall(const grpc::CallbackServerContext& context,
-                               const RequestHandler& handler, CallLog& log, WorkQueue& queue)
-    : limits_(context), handler_(handler), log_(log), queue_(queue) {
-  StartRead(&incoming_);
+                               const RequestHandler& handler, CallLog& log, WorkQueue& queue,
+                               OpenStreams& streams)
+    : limits_(context), handler_(handler), log_(log), queue_(queue), place_(streams) {
+  if (place_.is_taken()) {
+    StartRead(&incoming_);
+  } else {
+    log_.record_shed(Method::plan_stream);
+    end(shed_status());
+  }
 }
 
 void PlanStreamCall::OnReadDone(bool ok) {
@@ -22,8 +28,8 @@ void PlanStreamCall::OnReadDone(bool ok) {
     }
     read_on = ok && !ended_;
   }
-  go_on();
   if (read_on) StartRead(&incoming_);
+  go_on();
 }
 
 void PlanStreamCall::OnWriteDone(bool ok) {

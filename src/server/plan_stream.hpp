@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "nbvopt/v1/planner.pb.h"
+#include "server/open_streams.hpp"
 #include "server/queued_call.hpp"
 #include "server/request_handler.hpp"
 
@@ -16,7 +17,7 @@ namespace nbvopt {
 class PlanStreamCall final : public grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply> {
  public:
   PlanStreamCall(const grpc::CallbackServerContext& context, const RequestHandler& handler,
-                 CallLog& log, WorkQueue& queue);
+                 CallLog& log, WorkQueue& queue, OpenStreams& streams);
 
  private:
   void OnReadDone(bool ok) override;
@@ -41,6 +42,7 @@ class PlanStreamCall final : public grpc::ServerBidiReactor<v1::PlanRequest, v1:
   const RequestHandler& handler_;
   CallLog& log_;
   WorkQueue& queue_;
+  const OpenStreams::Place place_;
 
   v1::PlanRequest incoming_;  ///< gRPC writes it between StartRead() and OnReadDone()
   v1::PlanReply reply_;       ///< gRPC reads it between StartWrite() and OnWriteDone()

@@ -12,6 +12,7 @@ using grpc::ServerUnaryReactor;
 
 PlannerService::PlannerService(RequestHandler& handler, std::size_t planning_threads)
     : handler_(handler),
+      streams_(handler.limits().max_streams),
       planning_(planning_threads, static_cast<std::size_t>(handler.limits().max_waiting)),
       mapping_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
       storage_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
@@ -26,7 +27,7 @@ ServerUnaryReactor* PlannerService::Plan(CallbackServerContext* context,
 
 grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply>* PlannerService::PlanStream(
     CallbackServerContext* context) {
-  return new PlanStreamCall(*context, handler_, log_, planning_);
+  return new PlanStreamCall(*context, handler_, log_, planning_, streams_);
 }
 
 ServerUnaryReactor* PlannerService::Evaluate(CallbackServerContext* context,
@@ -45,15 +46,15 @@ ServerUnaryReactor* PlannerService::InsertScan(CallbackServerContext* context,
                     [=, this](const CallLimits&) { *reply = handler_.insert_scan(*request); });
 }
 
-grpc::ServerReadReactor<v1::InsertScanRequest>* PlannerService::InsertScans(
-    CallbackServerContext*, v1::InsertScansReply* reply) {
-  return new ScanStreamCall(*reply, handler_, log_, mapping_);
+grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply>* PlannerService::InsertScans(
+    CallbackServerContext*) {
+  return new ScanStreamCall(handler_, log_, mapping_, streams_);
 }
 
 ServerUnaryReactor* PlannerService::LoadMap(CallbackServerContext* context,
                                             const v1::LoadMapRequest* request,
                                             v1::LoadMapReply* reply) {
-  return start_call(*context, log_, Method::load_map, mapping_,
+  return start_call(*context, log_, Method::load_map, storage_,
                     [=, this](const CallLimits&) { *reply = handler_.load_map(*request); });
 }
 
@@ -66,7 +67,7 @@ ServerUnaryReactor* PlannerService::SaveMap(CallbackServerContext* context,
 
 grpc::ServerWriteReactor<v1::MapChunk>* PlannerService::GetMap(CallbackServerContext*,
                                                                const v1::GetMapRequest* request) {
-  return new MapStreamCall(*request, handler_, log_, storage_);
+  return new MapStreamCall(*request, handler_, log_, storage_, streams_);
 }
 
 ServerUnaryReactor* PlannerService::ClearMap(CallbackServerContext* context,
@@ -79,12 +80,14 @@ ServerUnaryReactor* PlannerService::ClearMap(CallbackServerContext* context,
 ServerUnaryReactor* PlannerService::GetStatus(CallbackServerContext* context,
                                               const v1::GetStatusRequest* request,
                                               v1::GetStatusReply* reply) {
-  return start_call(*context, log_, Method::get_status, status_, [=, this](const CallLimits&) {
-    *reply = handler_.status(*request);
-    const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - start_;
-    reply->set_uptime_s(uptime.count());
-    log_.write(*reply);
-  });
+  return start_call(*context, log_, Method::get_status, request->with_counts() ? storage_ : status_,
+                    [=, this](const CallLimits&) {
+                      *reply = handler_.status(*request);
+                      const std::chrono::duration<double> uptime =
+                          std::chrono::steady_clock::now() - start_;
+                      reply->set_uptime_s(uptime.count());
+                      log_.write(*reply);
+                    });
 }
 
 }  // namespace nbvopt

@@ -12,6 +12,7 @@
 
 #include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/call_log.hpp"
+#include "server/open_streams.hpp"
 #include "server/request_handler.hpp"
 #include "server/work_queue.hpp"
 
@@ -32,8 +33,8 @@ class PlannerService final : public v1::Planner::CallbackService {
   grpc::ServerUnaryReactor* InsertScan(grpc::CallbackServerContext* context,
                                        const v1::InsertScanRequest* request,
                                        v1::InsertScanReply* reply) override;
-  grpc::ServerReadReactor<v1::InsertScanRequest>* InsertScans(grpc::CallbackServerContext* context,
-                                                              v1::InsertScansReply* reply) override;
+  grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply>* InsertScans(
+      grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* LoadMap(grpc::CallbackServerContext* context,
                                     const v1::LoadMapRequest* request,
                                     v1::LoadMapReply* reply) override;
@@ -53,6 +54,7 @@ class PlannerService final : public v1::Planner::CallbackService {
   RequestHandler& handler_;
   CallLog log_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  OpenStreams streams_;
   WorkQueue planning_;
   WorkQueue mapping_;
   WorkQueue storage_;

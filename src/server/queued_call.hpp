@@ -1,6 +1,7 @@
 // What all calls share: their place on a queue, their limits, and their entry in the log.
 #pragma once
 
+#include <grpc/support/time.h>
 #include <grpcpp/grpcpp.h>
 #include <spdlog/spdlog.h>
 
@@ -20,15 +21,17 @@ namespace nbvopt {
 class CallLimits {
  public:
   explicit CallLimits(const grpc::CallbackServerContext& context) {
-    using System = std::chrono::system_clock;
-    if (context.deadline() == System::time_point::max()) return;
+    const gpr_timespec left =
+        gpr_time_sub(context.raw_deadline(), gpr_now(context.raw_deadline().clock_type));
+    constexpr std::int64_t kDay_s = 86'400;
+    if (left.tv_sec > kDay_s) return;  // none, or as good as none
     // From here on by the steady clock, which nobody sets. A tenth is left for the reply's way and
     // for the evaluation that is under way when time is over.
-    const auto left =
-        std::chrono::duration_cast<StopRule::Clock::duration>(context.deadline() - System::now());
+    const StopRule::Clock::duration time = std::chrono::seconds(std::max(left.tv_sec, -kDay_s)) +
+                                           std::chrono::nanoseconds(left.tv_nsec);
     constexpr StopRule::Clock::duration kLeast = std::chrono::milliseconds(1);
     constexpr StopRule::Clock::duration kMost = std::chrono::milliseconds(50);
-    stop_.deadline = received_ + left - std::clamp(left / 10, kLeast, kMost);
+    stop_.deadline = received_ + time - std::clamp(time / 10, kLeast, kMost);
   }
 
   StopRule::Clock::time_point received() const { return received_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "core/number.hpp"
 #include "nbvopt/core/version.hpp"
@@ -30,11 +31,24 @@ const std::string& needed_path(bool is_set, const std::string& path) {
   return path;
 }
 
+/// A client's text as a log may hold it: one short line, without quotes.
+std::string log_text(std::string text) {
+  constexpr std::size_t kMost = 200;
+  text.resize(std::min(text.size(), kMost));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == '"' || c > '~'; },
+      '?');
+  return text;
+}
+
 }  // namespace
 
 RequestHandler::RequestHandler(MapStore& store, const SnapshotKeeper* snapshots,
                                const DataFolder* data, const ServerLimits& limits)
-    : store_(store), snapshots_(snapshots), data_(data), limits_(limits) {}
+    : store_(store), snapshots_(snapshots), data_(data), limits_(limits) {
+  std::random_device random;
+  run_id_ = std::uint64_t{random()} << 32 | random();
+}
 
 StopRule RequestHandler::limited(const StopRule& stop, Clock::time_point received) const {
   StopRule limited = stop;
@@ -103,6 +117,7 @@ v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& mes
   v1::InsertScanReply reply;
   reply.set_map_version(version);
   reply.set_durable_version(durable_version());
+  reply.set_run_id(run_id_);
   reply.set_points_used(result.points_used);
   reply.set_rays_cleared(result.rays_cleared);
   reply.set_points_ignored(result.points_ignored);
@@ -119,23 +134,23 @@ v1::LoadMapReply RequestHandler::load_map(const v1::LoadMapRequest& message) {
   v1::LoadMapReply reply;
   reply.set_resolution_m(map.resolution_m());
   reply.set_map_version(store_.replace(std::move(map)));
-  spdlog::info("event=map_loaded path=\"{}\" map_version={}", path, reply.map_version());
+  spdlog::info("event=map_loaded path=\"{}\" map_version={}", log_text(path), reply.map_version());
   return reply;
 }
 
 v1::SaveMapReply RequestHandler::save_map(const v1::SaveMapRequest& message) const {
   const std::string& path = needed_path(message.has_path(), message.path());
   const DataFolder& folder = data();
-  const MapBytes map = store_.bytes(from_message(message.format()));
-  folder.write(path, map.bytes);
+  const auto map = store_.bytes(from_message(message.format()));
+  folder.write(path, map->bytes);
   v1::SaveMapReply reply;
-  reply.set_map_version(map.version);
-  reply.set_bytes(map.bytes.size());
-  spdlog::info("event=map_saved path=\"{}\" map_version={}", path, map.version);
+  reply.set_map_version(map->version);
+  reply.set_bytes(map->bytes.size());
+  spdlog::info("event=map_saved path=\"{}\" map_version={}", log_text(path), map->version);
   return reply;
 }
 
-MapBytes RequestHandler::get_map(const v1::GetMapRequest& message) const {
+std::shared_ptr<const MapBytes> RequestHandler::get_map(const v1::GetMapRequest& message) const {
   return store_.bytes(from_message(message.format()));
 }
 
@@ -151,6 +166,7 @@ v1::GetStatusReply RequestHandler::status(const v1::GetStatusRequest& message) c
   v1::GetStatusReply reply;
   reply.set_version(version());
   reply.set_versions(server_version_report());
+  reply.set_run_id(run_id_);
   const std::shared_ptr<const PublishedMap> map = store_.published();
   reply.set_map_version(map->version());
   reply.set_resolution_m(map->grid().lattice().resolution_m());

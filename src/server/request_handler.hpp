@@ -31,13 +31,15 @@ class RequestHandler {
   v1::InsertScanReply insert_scan(const v1::InsertScanRequest& message);
   v1::LoadMapReply load_map(const v1::LoadMapRequest& message);
   v1::SaveMapReply save_map(const v1::SaveMapRequest& message) const;
-  MapBytes get_map(const v1::GetMapRequest& message) const;
+  std::shared_ptr<const MapBytes> get_map(const v1::GetMapRequest& message) const;
   v1::ClearMapReply clear_map(const v1::ClearMapRequest& message);
 
   /// All but the service's own figures.
   v1::GetStatusReply status(const v1::GetStatusRequest& message) const;
 
   std::uint64_t durable_version() const;
+  /// Tells this run of the server from all others.
+  std::uint64_t run_id() const { return run_id_; }
 
  private:
   /// The stop rule with the server's own limit of computing.
@@ -49,6 +51,7 @@ class RequestHandler {
   const SnapshotKeeper* snapshots_;
   const DataFolder* data_;
   ServerLimits limits_;
+  std::uint64_t run_id_;
 };
 
 }  // namespace nbvopt

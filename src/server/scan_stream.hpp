@@ -1,49 +1,60 @@
-// InsertScans: a client's stream of scans, inserted one after the other.
+// InsertScans: a client's stream of scans, inserted and acknowledged one after the other.
 #pragma once
 
 #include "nbvopt/v1/planner.pb.h"
+#include "server/open_streams.hpp"
 #include "server/queued_call.hpp"
 #include "server/request_handler.hpp"
 
 namespace nbvopt {
 
-/// Deletes itself when the stream has ended. The next scan is read when the last one is inserted,
-/// so that a fast client waits instead of filling the server's memory.
-class ScanStreamCall final : public grpc::ServerReadReactor<v1::InsertScanRequest> {
+/// Deletes itself when the stream has ended. The next scan is read when the last one is
+/// acknowledged, so that a fast client waits instead of filling the server's memory.
+class ScanStreamCall final
+    : public grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply> {
  public:
-  ScanStreamCall(v1::InsertScansReply& reply, RequestHandler& handler, CallLog& log,
-                 WorkQueue& queue)
-      : reply_(reply), handler_(handler), log_(log), queue_(queue) {
-    StartRead(&scan_);
+  ScanStreamCall(RequestHandler& handler, CallLog& log, WorkQueue& queue, OpenStreams& streams)
+      : handler_(handler), log_(log), queue_(queue), place_(streams) {
+    if (place_.is_taken()) {
+      StartRead(&scan_);
+    } else {
+      shed();
+    }
   }
 
  private:
   void OnReadDone(bool ok) override {
     if (!ok) return Finish(grpc::Status::OK);  // all are read, or the client is gone
     received_ = StopRule::Clock::now();
-    if (queue_.try_post([this] { insert(); })) return;
+    if (!queue_.try_post([this] { insert(); })) shed();
+  }
+
+  void insert() {
+    const grpc::Status status = logged(log_, Method::insert_scans, received_,
+                                       [this] { reply_ = handler_.insert_scan(scan_); });
+    if (!status.ok()) return Finish(status);
+    scan_ = {};  // it may be large, and the next one may be long in coming
+    StartWrite(&reply_);
+  }
+
+  void OnWriteDone(bool ok) override {
+    if (!ok) return Finish(grpc::Status::CANCELLED);
+    StartRead(&scan_);
+  }
+
+  void shed() {
     log_.record_shed(Method::insert_scans);
     Finish(shed_status());
   }
 
-  void insert() {
-    const grpc::Status status = logged(log_, Method::insert_scans, received_, [this] {
-      const v1::InsertScanReply inserted = handler_.insert_scan(scan_);
-      reply_.set_scans(reply_.scans() + 1);
-      reply_.set_map_version(inserted.map_version());
-      reply_.set_durable_version(inserted.durable_version());
-    });
-    if (!status.ok()) return Finish(status);
-    StartRead(&scan_);
-  }
-
   void OnDone() override { delete this; }
 
-  v1::InsertScansReply& reply_;
   RequestHandler& handler_;
   CallLog& log_;
   WorkQueue& queue_;
+  const OpenStreams::Place place_;
   v1::InsertScanRequest scan_;
+  v1::InsertScanReply reply_;
   StopRule::Clock::time_point received_;
 };
 

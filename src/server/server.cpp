@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/atomic_file.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
@@ -75,8 +76,8 @@ struct Server::Parts {
       : options(server_options), address(parse_listen_address(options.listen)) {
     check_tls(address, options.tls);
     if (address.socket) socket_lock.emplace(*address.socket, "socket");
-    if (!options.data_folder.empty()) data.emplace(options.data_folder, options.snapshot_file);
     open_map();
+    if (!options.data_folder.empty()) data.emplace(options.data_folder, own_files());
     handler.emplace(*store, snapshots ? &*snapshots : nullptr, data ? &*data : nullptr,
                     options.limits);
     service.emplace(*handler, options.planning_threads);
@@ -87,13 +88,22 @@ struct Server::Parts {
     const bool keeps_snapshots = !options.snapshot_file.empty();
     if (keeps_snapshots) {
       snapshot_lock.emplace(options.snapshot_file, "snapshot");
-      remove_unfinished_snapshots(options.snapshot_file);
+      remove_unfinished_files(options.snapshot_file);
     }
     Snapshot first = first_map(options);
     store.emplace(options.robot, options.limits, std::move(first.map), first.version);
     if (!keeps_snapshots) return;
     snapshots.emplace(*store, options.snapshot_file, options.snapshot_every);
     snapshots->save();  // a disk that is full or not writable shows before the first scan
+  }
+
+  /// What clients must not write.
+  std::vector<fs::path> own_files() const {
+    std::vector<fs::path> files;
+    if (!options.snapshot_file.empty()) files.push_back(options.snapshot_file);
+    if (socket_lock) files.push_back(socket_lock->path());
+    if (snapshot_lock) files.push_back(snapshot_lock->path());
+    return files;
   }
 
   void listen() {
@@ -117,6 +127,7 @@ struct Server::Parts {
       throw InputError("cannot listen on " + address.text +
                        ": it is in use, or not of this machine, or its certificates do not fit");
     }
+    if (address.socket) ::chmod(address.socket->c_str(), 0600);
     if (!address.socket)
       address.text.replace(address.text.rfind(':') + 1, std::string::npos, std::to_string(port));
     server->GetHealthCheckService()->SetServingStatus(v1::Planner::service_full_name(), true);

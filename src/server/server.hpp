@@ -27,7 +27,7 @@ struct ServerOptions {
   std::size_t planning_threads = 2;
 };
 
-/// A server that listens from its construction to its destruction.
+/// A server that listens from its construction until stop(), or its destruction.
 class Server {
  public:
   /// Loads the snapshot, else the map, else starts an empty one. Throws InputError and UsageError

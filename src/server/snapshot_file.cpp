@@ -38,23 +38,11 @@ std::optional<Snapshot> read_snapshot(const fs::path& path) {
   return Snapshot{read_map(in, path.string()), version};
 }
 
-void write_snapshot(const fs::path& path, MapBytes map) {
+void write_snapshot(const fs::path& path, const MapBytes& map) {
   const std::size_t second_line = map.bytes.find('\n') + 1;
-  map.bytes.insert(second_line, std::string(kVersionComment) + std::to_string(map.version) + '\n');
-  write_file_atomically(path, map.bytes);
-}
-
-void remove_unfinished_snapshots(const fs::path& path) {
-  constexpr std::size_t kRandomLetters = 7;  // a point and six letters, see write_file_atomically
-  const std::string stem = path.filename().string() + '.';
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(stem) && name.size() == stem.size() - 1 + kRandomLetters) {
-      fs::remove(entry.path(), ignored);
-    }
-  }
+  std::string bytes = map.bytes;
+  bytes.insert(second_line, std::string(kVersionComment) + std::to_string(map.version) + '\n');
+  write_file_atomically(path, bytes);
 }
 
 }  // namespace nbvopt

@@ -19,9 +19,6 @@ struct Snapshot {
 std::optional<Snapshot> read_snapshot(const std::filesystem::path& path);
 
 /// Writes a map's bytes of the format uncertainty_ot atomically. Throws as write_file_atomically().
-void write_snapshot(const std::filesystem::path& path, MapBytes map);
-
-/// Removes what writers that were killed left behind. Nobody else may be writing the snapshot.
-void remove_unfinished_snapshots(const std::filesystem::path& path);
+void write_snapshot(const std::filesystem::path& path, const MapBytes& map);
 
 }  // namespace nbvopt

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <system_error>
 #include <utility>
 
 #include "server/snapshot_file.hpp"
@@ -30,15 +31,17 @@ SnapshotKeeper::State SnapshotKeeper::state() const {
 
 void SnapshotKeeper::save() {
   const std::scoped_lock one_writer(writing_);
-  if (store_.published()->version() == state().durable_version) return;
+  std::error_code ignored;
+  if (store_.published()->version() == state().durable_version &&
+      std::filesystem::exists(path_, ignored)) {
+    return;
+  }
   try {
-    MapBytes map = store_.bytes(MapFormat::uncertainty_ot);
-    const std::uint64_t version = map.version;
-    const std::size_t bytes = map.bytes.size();
-    write_snapshot(path_, std::move(map));
-    spdlog::debug("event=snapshot map_version={} bytes={}", version, bytes);
+    const auto map = store_.bytes(MapFormat::uncertainty_ot);
+    write_snapshot(path_, *map);
+    spdlog::debug("event=snapshot map_version={} bytes={}", map->version, map->bytes.size());
     const std::scoped_lock lock(mutex_);
-    state_ = {version, {}};
+    state_ = {map->version, {}};
   } catch (const std::exception& error) {
     const std::scoped_lock lock(mutex_);
     state_.error = error.what();

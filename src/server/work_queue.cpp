@@ -4,7 +4,8 @@
 
 namespace nbvopt {
 
-WorkQueue::WorkQueue(std::size_t threads, std::size_t max_waiting) : max_waiting_(max_waiting) {
+WorkQueue::WorkQueue(std::size_t threads, std::size_t max_waiting)
+    : thread_count_(threads), max_waiting_(max_waiting) {
   for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
 }
 
@@ -20,7 +21,7 @@ WorkQueue::~WorkQueue() {
 bool WorkQueue::try_post(std::function<void()> work) {
   {
     const std::scoped_lock lock(mutex_);
-    if (waiting_.size() >= max_waiting_ + idle_) return false;
+    if (waiting_.size() + busy_ >= max_waiting_ + thread_count_) return false;
     waiting_.push_back(std::move(work));
   }
   changed_.notify_one();
@@ -30,15 +31,15 @@ bool WorkQueue::try_post(std::function<void()> work) {
 void WorkQueue::run() {
   std::unique_lock lock(mutex_);
   while (true) {
-    ++idle_;
     changed_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
-    --idle_;
     if (waiting_.empty()) return;
+    ++busy_;
     const std::function<void()> work = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     work();
     lock.lock();
+    --busy_;
   }
 }
 

@@ -27,11 +27,12 @@ class WorkQueue {
  private:
   void run();
 
+  const std::size_t thread_count_;
   const std::size_t max_waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
-  std::size_t idle_ = 0;  ///< threads that wait for work
+  std::size_t busy_ = 0;  ///< threads at work
   bool closing_ = false;
   std::vector<std::thread> threads_;
 };

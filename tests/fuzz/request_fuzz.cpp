@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <span>
 
 #include "nbvopt/core/error.hpp"
@@ -20,7 +21,7 @@ constexpr ServerLimits kTight{.max_scan_points = 2000,
                               .max_views = 20,
                               .max_map_extent_m = 15.0,
                               .min_resolution_m = 0.1,
-                              .max_map_bricks = 200,
+                              .max_map_mib = 20,
                               .max_compute_ms = 2.0};
 
 /// A camera of few rays and a short range: many inputs a second.
@@ -72,6 +73,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace nbvopt;
   static const test::TemporaryFolder folder;
   static const DataFolder files(folder.path());
+  for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
+    std::filesystem::remove_all(file);  // of the input before
+  }
   MapStore store(small_robot(), kTight, UncertaintyMap(0.1), 1);
   RequestHandler handler(store, nullptr, &files, kTight);
 

@@ -30,9 +30,10 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
     EXPECT_EQ(insertion.version, static_cast<std::uint64_t>(i + 2));
     EXPECT_EQ(store.published()->version(), insertion.version);
   }
-  const MapBytes bytes = store.bytes(MapFormat::uncertainty_ot);
-  EXPECT_EQ(bytes.version, 11U);
-  EXPECT_EQ(bytes.bytes, map_file_bytes(expected, MapFormat::uncertainty_ot));
+  const auto bytes = store.bytes(MapFormat::uncertainty_ot);
+  EXPECT_EQ(bytes->version, 11U);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot), bytes);  // shared while somebody holds it
+  EXPECT_EQ(bytes->bytes, map_file_bytes(expected, MapFormat::uncertainty_ot));
 
   const auto grid = VoxelGrid::whole(expected);
   const PublishedMap fresh(store.robot(), grid);
@@ -63,18 +64,18 @@ TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
   MapStore store = make_store(limits);
   Transform far = test::scan_pose(0);
   far.translation().x() += 20.0;
-  const std::string before = store.bytes(MapFormat::uncertainty_ot).bytes;
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
   EXPECT_THAT(test::message_of<LimitError>([&] { store.insert(test::small_scan(), far); }),
               HasSubstr("--max-map-extent"));
   EXPECT_EQ(store.published()->version(), 1U);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot).bytes, before);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
   store.insert(test::small_scan(), test::scan_pose(0));  // the refused one did not count
 }
 
 TEST(MapStore, RefusesMapsThatAreTooLarge) {
   ServerLimits limits;
   limits.max_map_extent_m = 10.0;
-  limits.max_map_bricks = 20;
+  limits.max_map_mib = 1;
   MapStore store = make_store(limits);
   UncertaintyMap wide(0.1);
   wide.set(test::key_from_origin(0, 0, 0), test::kFree);
@@ -82,15 +83,30 @@ TEST(MapStore, RefusesMapsThatAreTooLarge) {
   wide.finish_writing();
   EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(wide)); }),
               HasSubstr("--max-map-extent"));
-  UncertaintyMap dense(0.02);  // one block of bricks that is free throughout
-  for (int brick = 0; brick < 21; ++brick)
+  UncertaintyMap dense(0.02);  // a voxel in each of 30 bricks
+  for (int brick = 0; brick < 30; ++brick)
     dense.set(test::key_from_origin(32 * (brick % 5), 32 * (brick / 5), 0), test::kFree);
   dense.finish_writing();
   EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(dense)); }),
-              HasSubstr("--max-map-bricks"));
+              HasSubstr("--max-map-mib"));
   EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(0.001); }),
               HasSubstr("--min-resolution"));
+  EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(1e300); }),
+              HasSubstr("--max-map-extent"));
   EXPECT_EQ(store.published()->version(), 1U);
+}
+
+TEST(MapStore, RefusesScansWhenItIsFull) {
+  ServerLimits limits;
+  limits.max_map_mib = 1;
+  MapStore store(test::small_robot(), limits, UncertaintyMap(0.02), 1);
+  int inserted = 0;
+  const std::string message = test::message_of<LimitError>([&] {
+    for (; inserted < 50; ++inserted) store.insert(test::small_scan(), test::scan_pose(inserted));
+  });
+  EXPECT_THAT(message, HasSubstr("--max-map-mib"));
+  EXPECT_GT(inserted, 0);
+  EXPECT_EQ(store.published()->version(), static_cast<std::uint64_t>(inserted + 1));
 }
 
 TEST(MapStore, RefusesBadScansAndStaysAsItWas) {
@@ -142,10 +158,10 @@ TEST(MapStoreConcurrency, EveryReaderSeesOneVersion) {
   }
   readers.emplace_back([&] {
     do {
-      const MapBytes bytes = store.bytes(MapFormat::uncertainty_ot);
-      std::istringstream in(bytes.bytes);
-      EXPECT_EQ(read_map(in, "copy").counts().nodes > 0, true);
-      EXPECT_GE(store.counts().version, bytes.version);
+      const auto bytes = store.bytes(MapFormat::uncertainty_ot);
+      std::istringstream in(bytes->bytes);
+      EXPECT_GT(read_map(in, "copy").counts().nodes, 0U);
+      EXPECT_GE(store.counts().version, bytes->version);
     } while (!done);
   });
   for (int i = 0; i < kScans; ++i) store.insert(test::small_scan(), test::scan_pose(i));

@@ -126,11 +126,13 @@ TEST_F(RequestHandlerTest, InsertsPointsAndDepthImages) {
   const v1::InsertScanReply reply = handler.insert_scan(request);
   EXPECT_EQ(reply.map_version(), 2U);
   EXPECT_EQ(reply.durable_version(), 0U);
+  EXPECT_EQ(reply.run_id(), handler.run_id());
+  EXPECT_NE(handler.run_id(), RequestHandler(store, nullptr, nullptr, limits).run_id());
   EXPECT_EQ(reply.points_used(), inserted.points_used);
   EXPECT_EQ(reply.rays_cleared(), inserted.rays_cleared);
   EXPECT_EQ(reply.voxels_changed(), inserted.changes.size());
   EXPECT_EQ(reply.information_gained(), inserted.information_gained);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot).bytes,
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes,
             map_file_bytes(expected, MapFormat::uncertainty_ot));
 }
 
@@ -140,16 +142,16 @@ TEST_F(RequestHandlerTest, LoadsAndSavesMaps) {
   handler.save_map(save);
   EXPECT_EQ(map_file_bytes(read_map(std::filesystem::path(folder / "saved.ot")),
                            MapFormat::uncertainty_ot),
-            store.bytes(MapFormat::uncertainty_ot).bytes);
-  const std::string before = store.bytes(MapFormat::uncertainty_ot).bytes;
+            store.bytes(MapFormat::uncertainty_ot)->bytes);
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
   handler.clear_map({});
   v1::LoadMapRequest load;
   load.set_path("saved.ot");
   const v1::LoadMapReply loaded = handler.load_map(load);
   EXPECT_EQ(loaded.map_version(), 3U);
   EXPECT_EQ(loaded.resolution_m(), 0.1);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot).bytes, before);
-  EXPECT_EQ(handler.get_map({}).bytes, before);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
+  EXPECT_EQ(handler.get_map({})->bytes, before);
 }
 
 TEST_F(RequestHandlerTest, KeepsItsMapWhenAFileCannotBeRead) {

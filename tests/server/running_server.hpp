@@ -15,7 +15,8 @@ namespace nbvopt::test {
 
 class RunningServer {
  public:
-  explicit RunningServer(const ServerLimits& limits = {}) : server(options(limits)) {}
+  /// Without a limit of computing, so that a search that goes on shows.
+  explicit RunningServer(ServerLimits limits = {}) : server(options(limits)) {}
 
   std::unique_ptr<v1::Planner::Stub> stub() const {
     return v1::Planner::NewStub(
@@ -37,7 +38,8 @@ class RunningServer {
   PlannerClient client{server.address()};
 
  private:
-  ServerOptions options(const ServerLimits& limits) const {
+  ServerOptions options(ServerLimits limits) const {
+    limits.max_compute_ms = 1e9;
     write_map(small_map(), folder / "map.ot", MapFormat::uncertainty_ot);
     ServerOptions options;
     options.robot = small_robot();

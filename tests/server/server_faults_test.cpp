@@ -8,6 +8,7 @@
 
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt {
 namespace {
@@ -24,8 +25,16 @@ v1::InsertScanRequest scan_request(int i = 0) {
 
 class ServerFaults : public ::testing::Test {
  protected:
-  ~ServerFaults() override {
-    EXPECT_NE(running.client.plan(test::small_request()).result.status, PlanStatus::not_run);
+  void TearDown() override {
+    // Busy at most until what was cancelled is cleared away.
+    EXPECT_TRUE(test::wait_until([&] {
+      try {
+        return running.client.plan(test::small_request()).result.status != PlanStatus::not_run;
+      } catch (const ServerError& error) {
+        EXPECT_EQ(error.kind(), ServerErrorKind::busy);
+        return false;
+      }
+    }));
     EXPECT_EQ(running.map_bytes(), expected_bytes);
   }
 
@@ -35,7 +44,10 @@ class ServerFaults : public ::testing::Test {
     return stub->InsertScan(&context, request, &reply);
   }
 
-  test::RunningServer running{{.max_map_extent_m = 100.0, .max_waiting = 8}};
+  static constexpr int kMaxStreams = 5;
+
+  test::RunningServer running{
+      {.max_map_extent_m = 100.0, .max_waiting = 8, .max_streams = kMaxStreams}};
   std::unique_ptr<v1::Planner::Stub> stub = running.stub();
   std::string expected_bytes = map_file_bytes(test::small_map(), MapFormat::uncertainty_ot);
 };
@@ -54,12 +66,11 @@ TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfAPlanStream) {
 TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfScans) {
   UncertaintyMap expected = test::small_map();
   grpc::ClientContext context;
-  v1::InsertScansReply reply;
-  const auto writer = stub->InsertScans(&context, &reply);
-  writer->Write(scan_request());
-  while (running.client.status().map_version < 2) std::this_thread::sleep_for(1ms);
+  const auto stream = stub->InsertScans(&context);
+  stream->Write(scan_request());
+  EXPECT_TRUE(test::wait_until([&] { return running.client.status().map_version == 2; }));
   context.TryCancel();
-  EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   insert_scan(expected, test::small_scan(), test::scan_pose(0), test::small_robot().sensor);
   expected_bytes = map_file_bytes(expected, MapFormat::uncertainty_ot);
 }
@@ -118,17 +129,20 @@ TEST_F(ServerFaults, DeadlinesOfNothingAndOfAMillisecond) {
 }
 
 TEST_F(ServerFaults, ADeadlineIsALimitOfComputing) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + 2s);
-  v1::PlanReply reply;
-  ASSERT_TRUE(stub->Plan(&context, test::RunningServer::long_request(), &reply).ok());
-  EXPECT_EQ(reply.status(), v1::PLAN_STATUS_TIME_LIMIT);
-  EXPECT_GT(reply.evaluations(), 1);
+  // A busy machine may be late with an answer, but not every time.
+  EXPECT_TRUE(test::wait_until([&] {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + 1s);
+    v1::PlanReply reply;
+    if (!stub->Plan(&context, test::RunningServer::long_request(), &reply).ok()) return false;
+    EXPECT_EQ(reply.status(), v1::PLAN_STATUS_TIME_LIMIT);
+    EXPECT_GT(reply.evaluations(), 1);
+    return true;
+  }));
 }
 
 TEST_F(ServerFaults, CancelledSearchesEnd) {
-  // As many as there are threads, so that a search that went on would keep the next plan waiting
-  // for the server's own limit of ten seconds.
+  // More than there are threads: a search that went on would keep the last plan waiting for ever.
   for (int i = 0; i < 4; ++i) {
     grpc::ClientContext context;
     v1::PlanReply reply;
@@ -141,7 +155,7 @@ TEST_F(ServerFaults, CancelledSearchesEnd) {
     canceller.join();
   }
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + 5s);
+  context.set_deadline(std::chrono::system_clock::now() + 60s);
   v1::PlanReply reply;
   EXPECT_TRUE(stub->Plan(&context, to_message(test::small_request()), &reply).ok());
 }
@@ -184,8 +198,7 @@ TEST_F(ServerFaults, MoreThanItCanDoIsShed) {
       if (code == grpc::StatusCode::RESOURCE_EXHAUSTED) ++shed;
     });
   }
-  for (int i = 0; i < 10'000 && shed < kCalls - 10; ++i) std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(shed, kCalls - 10);
+  EXPECT_TRUE(test::wait_until([&] { return shed == kCalls - 10; }));
   for (const auto& context : contexts) context->TryCancel();
   for (std::thread& call : calls) call.join();
   v1::GetStatusReply status;
@@ -203,18 +216,45 @@ TEST_F(ServerFaults, AMessageThatIsTooLarge) {
 TEST_F(ServerFaults, AFileThatGoesWhileItLoads) {
   const std::string file = running.folder / "going.ot";
   int loaded = 0;
-  for (int i = 0; i < 50; ++i) {
-    write_map(test::small_map(), file, MapFormat::uncertainty_ot);
-    std::thread remover([&] { std::filesystem::remove(file); });
+  constexpr int kTries = 20;
+  for (int i = 0; i < kTries; ++i) {
+    std::filesystem::copy_file(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot", file);
+    // From "before it is opened" to "while it is read".
+    std::thread remover([&, delay = std::chrono::microseconds(250 * i)] {
+      std::this_thread::sleep_for(delay);
+      std::filesystem::remove(file);
+    });
+    if (i == 0) remover.join();
     const std::string message =
         test::message_of<ServerError>([&] { running.client.load_map("going.ot"); });
-    if (message.empty()) ++loaded;
-    remover.join();
-    if (!message.empty()) {
+    if (i > 0) remover.join();
+    if (message.empty()) {
+      ++loaded;
+    } else {
       EXPECT_THAT(message, HasSubstr("No such file"));
     }
   }
-  EXPECT_LE(loaded, 50);
+  EXPECT_LT(loaded, kTries);
+  running.client.load_map("map.ot");
+}
+
+TEST_F(ServerFaults, MoreStreamsThanItHolds) {
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<grpc::ClientReaderWriter<v1::PlanRequest, v1::PlanReply>>> streams;
+  for (int i = 0; i < kMaxStreams; ++i) {
+    contexts.push_back(std::make_unique<grpc::ClientContext>());
+    streams.push_back(stub->PlanStream(contexts.back().get()));
+    v1::PlanReply reply;
+    streams.back()->Write(to_message(test::small_request()));
+    EXPECT_TRUE(streams.back()->Read(&reply));
+  }
+  grpc::ClientContext context;
+  EXPECT_EQ(stub->InsertScans(&context)->Finish().error_code(),
+            grpc::StatusCode::RESOURCE_EXHAUSTED);
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    streams[i]->WritesDone();
+    EXPECT_TRUE(streams[i]->Finish().ok());
+  }
 }
 
 TEST_F(ServerFaults, StopsInTheMiddleOfCalls) {

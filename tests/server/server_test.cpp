@@ -89,20 +89,21 @@ TEST_F(ServerTest, EvaluatesLoadsSavesClearsAndTells) {
 TEST_F(ServerTest, InsertsAStreamOfScans) {
   const auto stub = running.stub();
   grpc::ClientContext context;
-  v1::InsertScansReply reply;
-  const auto writer = stub->InsertScans(&context, &reply);
+  const auto stream = stub->InsertScans(&context);
   UncertaintyMap expected = test::small_map();
   for (int i = 0; i < 20; ++i) {
     v1::InsertScanRequest scan;
     *scan.mutable_sensor() = to_message(test::scan_pose(i));
     *scan.mutable_points() = to_message(test::small_scan());
-    ASSERT_TRUE(writer->Write(scan));
+    ASSERT_TRUE(stream->Write(scan));
+    v1::InsertScanReply reply;
+    ASSERT_TRUE(stream->Read(&reply));
+    EXPECT_EQ(reply.map_version(), static_cast<std::uint64_t>(i + 2));
+    EXPECT_GE(reply.durable_version(), 1U);
     insert_scan(expected, test::small_scan(), test::scan_pose(i), test::small_robot().sensor);
   }
-  writer->WritesDone();
-  ASSERT_TRUE(writer->Finish().ok());
-  EXPECT_EQ(reply.scans(), 20U);
-  EXPECT_EQ(reply.map_version(), 21U);
+  stream->WritesDone();
+  ASSERT_TRUE(stream->Finish().ok());
   EXPECT_EQ(running.map_bytes(), map_file_bytes(expected, MapFormat::uncertainty_ot));
 }
 
@@ -151,6 +152,23 @@ TEST_F(ServerTest, AnswersTheNewestOfManyStates) {
   EXPECT_LT(answers, kStates);
 }
 
+TEST_F(ServerTest, SaysWhichScansOfAStreamAreInTheMap) {
+  const auto stub = running.stub();
+  grpc::ClientContext context;
+  const auto stream = stub->InsertScans(&context);
+  v1::InsertScanRequest scan;
+  *scan.mutable_sensor() = to_message(test::scan_pose(0));
+  *scan.mutable_points() = to_message(test::small_scan());
+  v1::InsertScanReply reply;
+  stream->Write(scan);
+  EXPECT_TRUE(stream->Read(&reply));
+  scan.clear_scan();
+  stream->Write(scan);
+  EXPECT_FALSE(stream->Read(&reply));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(client.status().map_version, reply.map_version());
+}
+
 TEST_F(ServerTest, TellsWhatIsWrongWithACall) {
   const auto stub = running.stub();
   const auto code_of_plan = [&](const v1::PlanRequest& request) {
@@ -169,7 +187,7 @@ TEST_F(ServerTest, TellsWhatIsWrongWithACall) {
   EXPECT_THAT(test::message_of<ServerError>([&] { client.load_map("none.ot"); }),
               HasSubstr("No such file"));
   EXPECT_THAT(test::message_of<ServerError>([&] { client.save_map("snapshot.ot"); }),
-              HasSubstr("own snapshot"));
+              HasSubstr("own file"));
   EXPECT_THAT(test::message_of<ServerError>([&] { client.clear_map(1e-6); }),
               HasSubstr("--min-resolution"));
 }

@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <thread>
-
+#include "core/atomic_file.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/server_world.hpp"
@@ -10,6 +9,7 @@
 #include "server/snapshot_keeper.hpp"
 #include "support/error_message.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt {
 namespace {
@@ -25,13 +25,13 @@ class SnapshotTest : public ::testing::Test {
 };
 
 TEST_F(SnapshotTest, KeepsMapAndVersion) {
-  const MapBytes map = store.bytes(MapFormat::uncertainty_ot);
-  write_snapshot(path, map);
+  const auto map = store.bytes(MapFormat::uncertainty_ot);
+  write_snapshot(path, *map);
   const auto snapshot = read_snapshot(path);
   ASSERT_TRUE(snapshot);
   EXPECT_EQ(snapshot->version, 5U);
-  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map.bytes);
-  EXPECT_EQ(map_file_bytes(read_map(fs::path(path)), MapFormat::uncertainty_ot), map.bytes);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
+  EXPECT_EQ(map_file_bytes(read_map(fs::path(path)), MapFormat::uncertainty_ot), map->bytes);
 }
 
 TEST_F(SnapshotTest, MayBeAnyMapFileOrNone) {
@@ -43,13 +43,17 @@ TEST_F(SnapshotTest, MayBeAnyMapFileOrNone) {
 }
 
 TEST_F(SnapshotTest, RemovesWhatKilledWritersLeft) {
-  folder.write("snapshot.ot.aB3xYz", "half");
-  folder.write("snapshot.ot.backup1", "mine");
-  folder.write("snapshot.ot.lock", "");
-  remove_unfinished_snapshots(path);
-  EXPECT_FALSE(fs::exists(folder / "snapshot.ot.aB3xYz"));
-  EXPECT_TRUE(fs::exists(folder / "snapshot.ot.backup1"));
+  folder.write("snapshot.ot.nbvopt-unfinished-12-3", "half");
+  for (const char* mine : {"snapshot.ot", "snapshot.ot.backup", "snapshot.ot.lock",
+                           "other.ot.nbvopt-unfinished-1-1"}) {
+    folder.write(mine, "mine");
+  }
+  fs::create_symlink(path, folder / "link.ot");
+  remove_unfinished_files(folder / "link.ot");
+  EXPECT_FALSE(fs::exists(folder / "snapshot.ot.nbvopt-unfinished-12-3"));
+  EXPECT_TRUE(fs::exists(folder / "snapshot.ot.backup"));
   EXPECT_TRUE(fs::exists(folder / "snapshot.ot.lock"));
+  EXPECT_TRUE(fs::exists(folder / "other.ot.nbvopt-unfinished-1-1"));
 }
 
 TEST_F(SnapshotTest, KeeperSavesWhatChanged) {
@@ -57,9 +61,12 @@ TEST_F(SnapshotTest, KeeperSavesWhatChanged) {
   EXPECT_EQ(keeper.state().durable_version, 0U);
   keeper.save();
   EXPECT_EQ(keeper.state().durable_version, 5U);
-  fs::remove(path);
+  folder.write("snapshot.ot", "untouched");
   keeper.save();  // nothing changed since
-  EXPECT_FALSE(fs::exists(path));
+  EXPECT_EQ(read_text_file(path), "untouched");
+  fs::remove(path);
+  keeper.save();  // somebody removed it
+  EXPECT_EQ(read_snapshot(path)->version, 5U);
   store.insert(test::small_scan(), test::scan_pose(0));
   keeper.save();
   EXPECT_EQ(keeper.state().durable_version, 6U);
@@ -68,10 +75,7 @@ TEST_F(SnapshotTest, KeeperSavesWhatChanged) {
 
 TEST_F(SnapshotTest, KeeperSavesByItself) {
   SnapshotKeeper keeper(store, path, 1ms);
-  for (int i = 0; i < 10'000 && keeper.state().durable_version < 5; ++i) {
-    std::this_thread::sleep_for(1ms);
-  }
-  EXPECT_EQ(keeper.state().durable_version, 5U);
+  EXPECT_TRUE(test::wait_until([&] { return keeper.state().durable_version == 5; }));
   EXPECT_EQ(read_snapshot(path)->version, 5U);
 }
 

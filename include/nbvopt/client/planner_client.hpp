@@ -49,6 +49,8 @@ struct ClientTls {
 struct ScanReceipt {
   std::uint64_t map_version = 0;      ///< the first that holds the scan
   std::uint64_t durable_version = 0;  ///< of the last complete snapshot on disk; 0: none
+  /// Of the server: versions of different runs must not be compared.
+  std::uint64_t run_id = 0;
   std::uint64_t points_used = 0;
   std::uint64_t rays_cleared = 0;
   std::uint64_t points_ignored = 0;
@@ -78,6 +80,7 @@ struct ServerStatus {
   double uptime_s = 0.0;
   std::uint64_t map_version = 0;
   std::uint64_t durable_version = 0;
+  std::uint64_t run_id = 0;    ///< as in ScanReceipt
   std::string snapshot_error;  ///< empty: the last snapshot was written
   double resolution_m = 0.0;
   std::uint64_t scans = 0;  ///< since the server started
