@@ -29,13 +29,14 @@ class ServerFaults : public ::testing::Test {
     // Busy at most until what was cancelled is cleared away.
     EXPECT_TRUE(test::wait_until([&] {
       try {
-        return running.client.plan(test::small_request()).result.status != PlanStatus::not_run;
+        EXPECT_NE(running.client.plan(test::small_request()).result.status, PlanStatus::not_run);
+        EXPECT_EQ(running.map_bytes(), expected_bytes);
+        return true;
       } catch (const ServerError& error) {
         EXPECT_EQ(error.kind(), ServerErrorKind::busy);
         return false;
       }
     }));
-    EXPECT_EQ(running.map_bytes(), expected_bytes);
   }
 
   grpc::Status insert(const v1::InsertScanRequest& request) const {
