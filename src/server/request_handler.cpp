@@ -61,9 +61,8 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
   const std::shared_ptr<const PublishedMap> map = store_.published();
   PlanRequest request = from_message(message);
   const std::unique_ptr<Solver> solver = make_solver(from_message(message.search()));
-  const std::int64_t max_evaluations = request.stop.max_evaluations;
-  request.stop = limited(stop, received);
-  request.stop.max_evaluations = max_evaluations;
+  request.stop.cancel = stop.cancel;
+  request.stop.deadline = limited(stop, received).deadline;
   if (message.has_time_limit_ms()) {
     if (!(message.time_limit_ms() > 0.0) || !std::isfinite(message.time_limit_ms())) {
       throw InputError("time_limit_ms is " + format_number(message.time_limit_ms()) +

@@ -127,9 +127,11 @@ struct Server::Parts {
       throw InputError("cannot listen on " + address.text +
                        ": it is in use, or not of this machine, or its certificates do not fit");
     }
-    if (address.socket) ::chmod(address.socket->c_str(), 0600);
-    if (!address.socket)
+    if (address.socket) {
+      ::chmod(address.socket->c_str(), 0600);
+    } else {
       address.text.replace(address.text.rfind(':') + 1, std::string::npos, std::to_string(port));
+    }
     server->GetHealthCheckService()->SetServingStatus(v1::Planner::service_full_name(), true);
   }
 
