@@ -4,16 +4,20 @@
 
 #include "bench/bench_scene.hpp"
 #include "bench/latencies.hpp"
-#include "bench/server_process.hpp"
 #include "nbvopt/client/planner_client.hpp"
+#include "support/server_process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nbvopt::bench {
 
 std::string measure_server_latency(int calls) {
   const auto scene = make_bench_scenes({"ASLAM_lab"}).front();
   const test::TemporaryFolder folder;
-  const ServerProcess server(
-      {scene->map_file.string(), "--robot", folder.write("robot.yaml", to_yaml(scene->robot))});
+  const test::ServerProcess server(
+      NBVOPT_CLI,
+      {"serve", scene->map_file.string(), "--robot",
+       folder.write("robot.yaml", to_yaml(scene->robot)), "--listen", "127.0.0.1:0"},
+      folder / "log");
   PlannerClient client(server.address());
   Latencies whole;
   Latencies search;

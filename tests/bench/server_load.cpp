@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "bench/latencies.hpp"
-#include "bench/server_process.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/sim/exploration.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
 #include "nbvopt/sim/world.hpp"
+#include "support/server_process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nbvopt::bench {
 namespace {
@@ -75,7 +76,10 @@ void at_rate(Clock::duration period, Clock::time_point end, const Work& work) {
 std::string measure_server_load(double minutes) {
   const std::vector<Frame> frames = drive_through_the_office();
   const test::TemporaryFolder folder;
-  const ServerProcess server({"--create", "0.1", "--snapshot", folder / "snapshot.ot"});
+  test::ServerProcess server(
+      NBVOPT_CLI,
+      {"serve", "--create", "0.1", "--snapshot", folder / "snapshot.ot", "--listen", "127.0.0.1:0"},
+      folder / "log");
   PlannerClient client(server.address());
   const auto elapsed_ms = [](Clock::time_point since) {
     return std::chrono::duration<double, std::milli>(Clock::now() - since).count();

@@ -25,11 +25,11 @@ class Serve : public ::testing::Test {
 TEST_F(Serve, EndsOnSignalsWithItsMapSaved) {
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     Served served(server, server.arguments({"--snapshot-every", "3600"}));
-    PlannerClient client(served.address);
+    PlannerClient client(served.address());
     const std::uint64_t version = client.insert_scan(small_scan(), scan_pose(signal)).map_version;
     const std::string bytes = client.get_map().bytes;
-    served.process.send(signal);
-    EXPECT_EQ(served.process.wait(), 0);
+    served.process().send(signal);
+    EXPECT_EQ(served.process().wait(), 0);
     const auto snapshot = read_snapshot(server.snapshot());
     EXPECT_EQ(snapshot->version, version);
     EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), bytes);
@@ -40,14 +40,14 @@ TEST_F(Serve, EndsOnSignalsWithItsMapSaved) {
 TEST_F(Serve, CancelsWhatIsInFlightWhenItEnds) {
   Served served(server, server.arguments({"--max-compute-ms", "1e9"}));
   std::jthread caller([&] {
-    PlannerClient client(served.address);
+    PlannerClient client(served.address());
     PlanRequest request = small_request();
     request.stop.max_evaluations = 1'000'000'000'000;
     EXPECT_THROW(client.plan(request, {.solver = "random"}), ServerError);
   });
   std::this_thread::sleep_for(100ms);
-  served.process.send(SIGTERM);
-  EXPECT_EQ(served.process.wait(), 0);
+  served.process().send(SIGTERM);
+  EXPECT_EQ(served.process().wait(), 0);
 }
 
 /// What the map is at each version, when scan_pose(v) is inserted into version v.
@@ -88,11 +88,11 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
     std::uint64_t version = 0;
     std::jthread killer([&, delay = std::chrono::microseconds(uniform_int(random, 0, 60'000))] {
       std::this_thread::sleep_for(delay);
-      served.process.send(SIGKILL);
+      served.process().send(SIGKILL);
     });
     std::uint64_t this_run_id = run_id;
     try {
-      PlannerClient client(served.address);
+      PlannerClient client(served.address());
       version = client.status().map_version;
       EXPECT_GE(version, told);
       while (true) {
@@ -107,7 +107,7 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
     } catch (const ServerError&) {  // it was killed
     }
     killer.join();
-    served.process.wait();
+    served.process().wait();
     run_id = this_run_id;
     const auto snapshot = read_snapshot(server.snapshot());
     ASSERT_TRUE(snapshot);
@@ -127,7 +127,7 @@ TEST_F(Serve, SaysWhenTheDiskIsFullAndGoesOn) {
     command += " '" + word + "'";
   }
   Served served(server, {"-c", command}, "/bin/sh");
-  PlannerClient client(served.address);
+  PlannerClient client(served.address());
   EXPECT_EQ(client.status().durable_version, 1U);
   client.insert_scan(small_scan(), scan_pose(0));
   EXPECT_TRUE(wait_until([&] { return !client.status().snapshot_error.empty(); }));
@@ -136,8 +136,8 @@ TEST_F(Serve, SaysWhenTheDiskIsFullAndGoesOn) {
   EXPECT_EQ(client.plan(small_request()).result.map_version, 3U);
   EXPECT_EQ(read_snapshot(server.snapshot())->version, 1U);
   EXPECT_THROW(client.clear_map(-1.0), ServerError);
-  served.process.send(SIGTERM);
-  EXPECT_EQ(served.process.wait(), 3);  // its map could not be saved
+  served.process().send(SIGTERM);
+  EXPECT_EQ(served.process().wait(), 3);  // its map could not be saved
   EXPECT_EQ(read_snapshot(server.snapshot())->version, 1U);
 }
 
@@ -147,7 +147,7 @@ TEST_F(Serve, SharesNeitherSocketNorSnapshot) {
   std::vector<std::string> elsewhere = server.arguments();
   elsewhere.back() = "127.0.0.1:0";
   expect_refusal(nbvopt_run(elsewhere), 3, "another server uses this snapshot");
-  EXPECT_EQ(PlannerClient(served.address).status().map_version, 1U);
+  EXPECT_EQ(PlannerClient(served.address()).status().map_version, 1U);
 }
 
 TEST_F(Serve, RefusesWhatItCannotStartWith) {
@@ -180,7 +180,7 @@ TEST_F(Serve, GoesOnWhenTheClockJumps) {
     arguments.push_back(argument);
   }
   Served served(server, arguments, "/usr/bin/env");
-  PlannerClient client(served.address);
+  PlannerClient client(served.address());
   int scans = 0;
   for (const char* jump : {"+3600", "-3600", "+366d", "+0"}) {
     server.folder.write("offset.new", jump);
@@ -195,8 +195,8 @@ TEST_F(Serve, GoesOnWhenTheClockJumps) {
   // The log was written in more than one year: the jumps have reached the server.
   const std::string log = server.log();
   EXPECT_NE(log.find("\n" + std::to_string(std::stoi(log.substr(0, 4)) + 1)), std::string::npos);
-  served.process.send(SIGTERM);
-  EXPECT_EQ(served.process.wait(), 0);
+  served.process().send(SIGTERM);
+  EXPECT_EQ(served.process().wait(), 0);
 }
 #endif
 
@@ -241,7 +241,7 @@ TEST_F(Serve, LetsOnlyThoseInFromElsewhereWhoHaveACertificate) {
                         made.file("server", ".key"), "--tls-client-ca", made.file("ca", ".pem")});
   *std::find(arguments.begin(), arguments.end(), server.socket()) = "0.0.0.0:0";
   const Served served(server, arguments);
-  const std::string address = "localhost" + served.address.substr(served.address.rfind(':'));
+  const std::string address = "localhost" + served.address().substr(served.address().rfind(':'));
   const auto tls = [&](const char* name) {
     return ClientTls{.server_ca = made.file("ca", ".pem"),
                      .certificate = made.file(name, ".pem"),
@@ -267,7 +267,7 @@ TEST_F(Serve, AnswersQueriesToTheLastBit) {
     Arguments shared{"--base", "1.9,2.6,1.57", "--height", "0.4", "--motion-time", "0.5", "--json"};
     shared.insert(shared.end(), more.begin(), more.end());
     Arguments here{"query", map};
-    Arguments there{"query", "--server", served.address};
+    Arguments there{"query", "--server", served.address()};
     for (Arguments* arguments : {&here, &there}) {
       arguments->insert(arguments->end(), shared.begin(), shared.end());
     }

@@ -6,7 +6,7 @@
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "server/server_world.hpp"
-#include "support/background_process.hpp"
+#include "support/server_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nbvopt::test {
@@ -32,20 +32,12 @@ class ServerFolder {
   TemporaryFolder folder;
 };
 
-/// A server that is ready.
-class Served {
+/// A server that is ready, its log in the folder.
+class Served : public ServerProcess {
  public:
   Served(const ServerFolder& folder, const std::vector<std::string>& arguments,
          const std::string& program = NBVOPT_CLI)
-      : process(program, arguments, folder.folder / "log") {
-    const std::string prefix = "listening on ";
-    const std::string line = process.read_line();
-    if (!line.starts_with(prefix)) throw std::runtime_error("no server: " + folder.log());
-    address = line.substr(prefix.size());
-  }
-
-  BackgroundProcess process;
-  std::string address;
+      : ServerProcess(program, arguments, folder.folder / "log") {}
 };
 
 }  // namespace nbvopt::test
