@@ -109,12 +109,7 @@ class PlannerClient:
         comes back in its answer. `requests` is read by a thread of its own. No timeout holds; to
         end the call early, close this generator.
         """
-        with self._errors():
-            answers = self._stub.PlanStream(iter(requests))
-            try:
-                yield from answers
-            finally:
-                answers.cancel()  # nothing happens where the stream has ended
+        yield from self._stream(self._stub.PlanStream, requests)
 
     def evaluate(self, views: Iterable[ViewLike]) -> pb.EvaluateReply:
         """What views are worth, in their order: each a T_map_sensor (4 x 4) or (base, joints)."""
@@ -130,21 +125,10 @@ class PlannerClient:
     ) -> pb.InsertScanReply:
         """Inserts a depth image; plans see it when this returns.
 
-        depth: (height, width) uint16, along the optical axis in units of `depth_scale_m`; 0 is a
-        pixel that is not known, 65535 one with nothing in range.
+        Arguments are those of `depth_image_scan`.
         """
-        _check_array("depth", depth, "(height, width)", np.uint16)
-        height_px, width_px = depth.shape
-        image = pb.DepthImage(
-            width_px=width_px,
-            height_px=height_px,
-            depth=depth.astype("<u2", copy=False).tobytes(),
-            depth_scale_m=depth_scale_m,
-            **Intrinsics(*intrinsics)._asdict(),
-        )
-        sensor = _pose(T_map_sensor, "T_map_sensor")
-        request = pb.InsertScanRequest(sensor=sensor, depth_image=image)
-        return self._call(self._stub.InsertScan, request)
+        scan = depth_image_scan(depth, intrinsics, T_map_sensor, depth_scale_m)
+        return self._call(self._stub.InsertScan, scan)
 
     def insert_points(
         self,
@@ -153,24 +137,20 @@ class PlannerClient:
         colours: Optional[np.ndarray] = None,
         no_returns: Optional[np.ndarray] = None,
     ) -> pb.InsertScanReply:
-        """Inserts a point cloud in the sensor frame; plans see it when this returns.
+        """Inserts a point cloud; plans see it when this returns.
 
-        points_m: (N, 3) float32, metres; points that are not finite are counted and ignored.
-        colours: (N, 3) uint8, red, green and blue.
-        no_returns: (M, 3) float32, directions of any length in which nothing is in range.
+        Arguments are those of `point_scan`.
         """
-        cloud = pb.PointCloud(xyz_m=_packed("points_m", points_m))
-        if colours is not None:
-            _check_array("colours", colours, "(N, 3)", np.uint8)
-            if len(colours) != len(points_m):
-                raise ValueError(
-                    f"colours has {len(colours)} rows, points_m {len(points_m)}: give one a point"
-                )
-            cloud.rgb = colours.tobytes()
-        if no_returns is not None:
-            cloud.no_return_xyz = _packed("no_returns", no_returns)
-        request = pb.InsertScanRequest(sensor=_pose(T_map_sensor, "T_map_sensor"), points=cloud)
-        return self._call(self._stub.InsertScan, request)
+        scan = point_scan(points_m, T_map_sensor, colours, no_returns)
+        return self._call(self._stub.InsertScan, scan)
+
+    def insert_scans(self, scans: Iterable[pb.InsertScanRequest]) -> Iterator[pb.InsertScanReply]:
+        """Inserts scans (`depth_image_scan`, `point_scan`) in order and acknowledges each.
+
+        `scans` is read by a thread of its own. No timeout holds; to end the call early, close this
+        generator. A scan that is refused raises; those that were acknowledged are in the map.
+        """
+        yield from self._stream(self._stub.InsertScans, scans)
 
     def load_map(self, path: str) -> pb.LoadMapReply:
         """Replaces the map by that of a file in the server's data folder."""
@@ -200,6 +180,14 @@ class PlannerClient:
     def _call(self, method, request):
         with self._errors():
             return method(request, timeout=self.timeout_s)
+
+    def _stream(self, method, requests):
+        with self._errors():
+            answers = method(iter(requests))
+            try:
+                yield from answers
+            finally:
+                answers.cancel()  # nothing happens where the stream has ended
 
     @contextlib.contextmanager
     def _errors(self) -> Iterator[None]:
@@ -244,6 +232,54 @@ def plan_request(
         time_limit_ms=time_limit_ms,
         request_id=request_id,
     )
+
+
+def depth_image_scan(
+    depth: np.ndarray,
+    intrinsics: Intrinsics,
+    T_map_sensor: PoseLike,
+    depth_scale_m: float = 0.001,
+) -> pb.InsertScanRequest:
+    """A depth image as a scan.
+
+    depth: (height, width) uint16, along the optical axis in units of `depth_scale_m`; 0 is a
+    pixel that is not known, 65535 one with nothing in range.
+    """
+    _check_array("depth", depth, "(height, width)", np.uint16)
+    height_px, width_px = depth.shape
+    image = pb.DepthImage(
+        width_px=width_px,
+        height_px=height_px,
+        depth=depth.astype("<u2", copy=False).tobytes(),
+        depth_scale_m=depth_scale_m,
+        **Intrinsics(*intrinsics)._asdict(),
+    )
+    return pb.InsertScanRequest(sensor=_pose(T_map_sensor, "T_map_sensor"), depth_image=image)
+
+
+def point_scan(
+    points_m: np.ndarray,
+    T_map_sensor: PoseLike,
+    colours: Optional[np.ndarray] = None,
+    no_returns: Optional[np.ndarray] = None,
+) -> pb.InsertScanRequest:
+    """A point cloud in the sensor frame as a scan.
+
+    points_m: (N, 3) float32, metres; points that are not finite are counted and ignored.
+    colours: (N, 3) uint8, red, green and blue.
+    no_returns: (M, 3) float32, directions of any length in which nothing is in range.
+    """
+    cloud = pb.PointCloud(xyz_m=_packed("points_m", points_m))
+    if colours is not None:
+        _check_array("colours", colours, "(N, 3)", np.uint8)
+        if len(colours) != len(points_m):
+            raise ValueError(
+                f"colours has {len(colours)} rows, points_m {len(points_m)}: give one a point"
+            )
+        cloud.rgb = colours.tobytes()
+    if no_returns is not None:
+        cloud.no_return_xyz = _packed("no_returns", no_returns)
+    return pb.InsertScanRequest(sensor=_pose(T_map_sensor, "T_map_sensor"), points=cloud)
 
 
 def matrix(pose: pb.Pose) -> np.ndarray:

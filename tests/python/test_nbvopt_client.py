@@ -26,9 +26,11 @@ from nbvopt_client import (
     PlannerClient,
     PlannerError,
     Tls,
+    depth_image_scan,
     matrix,
     pb,
     plan_request,
+    point_scan,
 )
 from simulated_robot import R_BODY_SENSOR, SimulatedRobot
 
@@ -166,6 +168,23 @@ class InsertTest(ClientTest):
         self.planner.clear_map()
         self.planner.insert_points(points_m, ahead(0.0, 0.0, 0.5))
         self.assertNotIn(colour.tobytes(), self.planner.get_map())
+
+    def test_a_stream_acknowledges_each_scan(self):
+        points_m = np.array([[0.0, 0.0, 1.0]], np.float32)
+        scans = [
+            depth_image_scan(SMALL_DEPTH, SMALL_CAMERA, ahead(1.01, 2.01, 0.51)),
+            point_scan(points_m, ahead(1.01, 2.01, 0.51)),
+            pb.InsertScanRequest(),
+            point_scan(points_m, ahead(1.01, 2.01, 0.51)),
+        ]
+        before = self.planner.status().map_version
+        versions = []
+        with self.assertRaises(PlannerError) as caught:
+            for reply in self.planner.insert_scans(scans):
+                versions.append(reply.map_version)
+        self.assertEqual(versions, [before + 1, before + 2])
+        self.assertEqual(caught.exception.code, grpc.StatusCode.INVALID_ARGUMENT)
+        self.assertEqual(self.planner.status().map_version, before + 2)
 
     def test_poses_as_messages_with_a_quaternion(self):
         matrix_pose = ahead(1.01, 2.01, 0.51)
