@@ -56,8 +56,18 @@ StopRule RequestHandler::limited(const StopRule& stop, Clock::time_point receive
   return limited;
 }
 
+void RequestHandler::check_size(const google::protobuf::Message& message) const {
+  constexpr std::uint64_t kMib = 1 << 20;
+  const std::uint64_t bytes = message.ByteSizeLong();
+  if (bytes <= static_cast<std::uint64_t>(limits_.max_message_mib) * kMib) return;
+  throw LimitError("the message has " + std::to_string((bytes + kMib - 1) / kMib) +
+                   " MiB, the limit is " + std::to_string(limits_.max_message_mib) +
+                   " MiB (--max-message-mib)");
+}
+
 v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
                                    const StopRule& stop) const {
+  check_size(message);
   const std::shared_ptr<const PublishedMap> map = store_.published();
   PlanRequest request = from_message(message);
   const std::unique_ptr<Solver> solver = make_solver(from_message(message.search()));
@@ -79,6 +89,7 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
 
 v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
                                            Clock::time_point received, const StopRule& stop) const {
+  check_size(message);
   if (message.views_size() > limits_.max_views) {
     throw LimitError("the call has " + std::to_string(message.views_size()) +
                      " views, the limit is " + std::to_string(limits_.max_views) +
@@ -110,6 +121,7 @@ v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
 }
 
 v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& message) {
+  check_size(message);
   const Transform T_map_sensor = from_message(message.sensor(), "sensor");
   const Scan scan = scan_from_message(message, static_cast<std::uint64_t>(limits_.max_scan_points));
   const auto [result, version] = store_.insert(scan, T_map_sensor);

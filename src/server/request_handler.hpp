@@ -44,6 +44,8 @@ class RequestHandler {
  private:
   /// The stop rule with the server's own limit of computing.
   StopRule limited(const StopRule& stop, StopRule::Clock::time_point received) const;
+  /// Throws LimitError when a message is too large.
+  void check_size(const google::protobuf::Message& message) const;
   /// Throws RequestError when there is none.
   const DataFolder& data() const;
 

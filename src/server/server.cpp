@@ -114,7 +114,9 @@ struct Server::Parts {
     int port = -1;
     builder.AddListeningPort(address.text, credentials(options.tls), &port);
     builder.RegisterService(&*service);
-    builder.SetMaxReceiveMessageSize(static_cast<int>(options.limits.max_message_mib << 20));
+    // gRPC refuses without naming the limit; the handler names it for what goes a little beyond.
+    const std::int64_t hard_limit_mib = options.limits.max_message_mib + 16;
+    builder.SetMaxReceiveMessageSize(static_cast<int>(hard_limit_mib << 20));
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server must not share it
     // Clients that are gone without a word.
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 20'000);

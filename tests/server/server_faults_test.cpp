@@ -211,6 +211,11 @@ TEST_F(ServerFaults, MoreThanItCanDoIsShed) {
 TEST_F(ServerFaults, AMessageThatIsTooLarge) {
   v1::InsertScanRequest request = scan_request();
   request.mutable_points()->mutable_xyz_m()->resize(12 << 21);
+  const grpc::Status refused = insert(request);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  EXPECT_THAT(refused.error_message(),
+              HasSubstr("25 MiB, the limit is 16 MiB (--max-message-mib)"));
+  request.mutable_points()->mutable_xyz_m()->resize(12 << 22);
   EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
