@@ -77,7 +77,24 @@ void collect_blocks(const UncertaintyOcTree& tree, const UncertaintyOcTreeNode* 
   }
 }
 
+std::uint64_t count_bricks(const UncertaintyOcTree& tree, const UncertaintyOcTreeNode& node,
+                           int depth) {
+  if (depth == kBrickDepth) return 1;
+  if (!tree.nodeHasChildren(&node)) return std::uint64_t{1} << 3 * (kBrickDepth - depth);
+  std::uint64_t bricks = 0;
+  for (int child = 0; child < 8; ++child) {
+    if (tree.nodeChildExists(&node, child)) {
+      bricks += count_bricks(tree, *tree.getNodeChild(&node, child), depth + 1);
+    }
+  }
+  return bricks;
+}
+
 }  // namespace
+
+std::uint64_t count_known_bricks(const UncertaintyOcTree& tree) {
+  return tree.getRoot() == nullptr ? 0 : count_bricks(tree, *tree.getRoot(), 0);
+}
 
 std::vector<BrickKey> known_blocks(const UncertaintyOcTree& tree) {
   std::vector<BrickKey> blocks;

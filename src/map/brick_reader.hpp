@@ -1,6 +1,7 @@
 // Reads bricks from the octree.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace nbvopt::detail {
 
 /// Bricks come in blocks of 16 x 16 x 16; a block's address is its bricks' keys divided by 16.
 inline constexpr int kBlockBits = 4;
+
+/// How many bricks the tree knows anything of; a pruned leaf counts as the bricks that it covers.
+std::uint64_t count_known_bricks(const UncertaintyOcTree& tree);
 
 /// The blocks in which the tree knows anything, each once.
 std::vector<BrickKey> known_blocks(const UncertaintyOcTree& tree);

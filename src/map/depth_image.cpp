@@ -1,27 +1,19 @@
 #include "nbvopt/map/depth_image.hpp"
 
-#include <cmath>
 #include <string>
 
-#include "core/number.hpp"
-#include "nbvopt/core/error.hpp"
+#include "core/field_check.hpp"
 
 namespace nbvopt {
 
 namespace {
 
-void check_positive(const char* field, double value) {
-  if (!(value > 0.0) || !std::isfinite(value)) {
-    throw InputError(std::string("depth image: ") + field + " is " + format_number(value) +
-                     ", it must be positive and finite");
-  }
+void check_positive(const std::string& field, double value) {
+  check_field(value > 0.0, "depth image: " + field, value, "positive and finite");
 }
 
-void check_finite(const char* field, double value) {
-  if (!std::isfinite(value)) {
-    throw InputError(std::string("depth image: ") + field + " is " + format_number(value) +
-                     ", it must be finite");
-  }
+void check_finite(const std::string& field, double value) {
+  check_field(true, "depth image: " + field, value, "finite");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "map/brick_reader.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -66,20 +67,6 @@ void grow_known_box(const UncertaintyOcTree& tree, const Node& node, VoxelKey or
                      box);
     }
   }
-}
-
-constexpr int kBrickDepth = 11;  // whose nodes cover 32 voxels a side
-
-std::uint64_t bricks_under(const UncertaintyOcTree& tree, const Node& node, int depth) {
-  if (depth == kBrickDepth) return 1;
-  if (!tree.nodeHasChildren(&node)) return std::uint64_t{1} << 3 * (kBrickDepth - depth);
-  std::uint64_t bricks = 0;
-  for (int i = 0; i < 8; ++i) {
-    if (tree.nodeChildExists(&node, i)) {
-      bricks += bricks_under(tree, *tree.getNodeChild(&node, i), depth + 1);
-    }
-  }
-  return bricks;
 }
 
 bool any_certain_leaf(const UncertaintyOcTree& tree, const Node& node) {
@@ -165,9 +152,7 @@ std::optional<KeyBox> UncertaintyMap::known_box() const {
   return box;
 }
 
-std::uint64_t UncertaintyMap::known_bricks() const {
-  return tree_->getRoot() == nullptr ? 0 : bricks_under(*tree_, *tree_->getRoot(), 0);
-}
+std::uint64_t UncertaintyMap::known_bricks() const { return detail::count_known_bricks(*tree_); }
 
 bool UncertaintyMap::has_occupied() const {
   return tree_->getRoot() != nullptr && tree_->isNodeOccupied(tree_->getRoot());

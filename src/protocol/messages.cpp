@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/number.hpp"
+#include "core/field_check.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/depth_image.hpp"
 #include "protocol/limit_error.hpp"
@@ -18,9 +18,7 @@ namespace {
 /// A needed number, checked. `is_set` and `value` are the field's.
 double needed(bool is_set, double value, const std::string& field) {
   if (!is_set) throw InputError(field + " is not set");
-  if (!std::isfinite(value)) {
-    throw InputError(field + " is " + format_number(value) + ", it must be finite");
-  }
+  check_field(true, field, value, "finite");
   return value;
 }
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "core/number.hpp"
+#include "core/field_check.hpp"
 #include "nbvopt/core/version.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "protocol/limit_error.hpp"
@@ -74,10 +74,8 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
   request.stop.cancel = stop.cancel;
   request.stop.deadline = limited(stop, received).deadline;
   if (message.has_time_limit_ms()) {
-    if (!(message.time_limit_ms() > 0.0) || !std::isfinite(message.time_limit_ms())) {
-      throw InputError("time_limit_ms is " + format_number(message.time_limit_ms()) +
-                       ", it must be positive and finite");
-    }
+    check_field(message.time_limit_ms() > 0.0, "time_limit_ms", message.time_limit_ms(),
+                "positive and finite");
     const double limit_ms = std::min(message.time_limit_ms(), limits_.max_compute_ms);
     stop_at_latest(request.stop, received, limit_ms);
   }
