@@ -17,3 +17,5 @@ find_package(assimp 5.2 REQUIRED CONFIG)
 find_package(Protobuf 3.21 REQUIRED)
 find_package(gRPC 1.51 REQUIRED CONFIG)
 find_package(spdlog 1.10 REQUIRED CONFIG)
+# Studies'.
+find_package(nlohmann_json 3.11 REQUIRED CONFIG)

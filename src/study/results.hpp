@@ -1,0 +1,71 @@
+// What a study found: every run of every solver, as its report reads it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "nbvopt/sensor/sensor_options.hpp"
+
+namespace nbvopt::study {
+
+/// A question that every solver was asked: a robot that stands somewhere in a map.
+struct CaseResult {
+  std::string map;        ///< the file's name
+  std::size_t start = 0;  ///< its number among the map's
+  double motion_time_s = 0.0;
+  UncertaintyMode mode = UncertaintyMode::both;
+  /// The best exact gain there is, from the reference search; NaN where that has not run.
+  double reference_gain = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What bounded a run.
+struct Budget {
+  std::int64_t max_evaluations = 0;  ///< of the exact gain and of the surrogate together; 0: none
+  double time_limit_ms = 0.0;        ///< 0: none
+
+  bool operator==(const Budget&) const = default;
+};
+
+/// A better view than all before it: a step of the best exact gain.
+struct ProgressStep {
+  std::int64_t evaluations = 0;        ///< when it was found, of the exact gain and the surrogate
+  std::int64_t exact_evaluations = 0;  ///< of these, of the exact gain
+  double time_ms = 0.0;                ///< when it was found
+  double gain = 0.0;                   ///< exact
+};
+
+/// One unit of work: a case, answered by a solver within a budget.
+struct Run {
+  std::size_t case_index = 0;
+  std::size_t solver = 0;
+  std::size_t budget = 0;
+  std::uint64_t seed = 0;
+  std::string failure;        ///< why there is no answer; empty: there is one, below
+  std::string status;         ///< such as "optimal_within_tolerance"
+  double gain = 0.0;          ///< exact, of the answer
+  double current_gain = 0.0;  ///< exact, of staying
+  /// The exact gain of the answer's view in each uncertainty mode: distance, angle, both.
+  std::array<double, 3> gain_by_mode{};
+  std::int64_t evaluations = 0;  ///< of the exact gain
+  std::int64_t surrogate_evaluations = 0;
+  double move_time_s = 0.0;
+  double search_time_ms = 0.0;
+  std::vector<ProgressStep> progress;  ///< ascending in evaluations, time and gain; staying first
+
+  bool has_failed() const { return !failure.empty(); }
+};
+
+struct Results {
+  std::string study;  ///< its name
+  std::vector<CaseResult> cases;
+  std::vector<std::string> solvers;  ///< the first is the one that the others are compared with
+  std::vector<Budget> budgets;       ///< from tight to loose, evaluations before times
+  std::vector<Run> runs;             ///< sorted by case, solver, budget and seed
+  std::size_t missing_runs = 0;      ///< units of the study that have no record yet
+};
+
+}  // namespace nbvopt::study
