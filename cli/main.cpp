@@ -11,6 +11,7 @@
 #include "cli/reproduce.hpp"
 #include "cli/serve.hpp"
 #include "cli/simulate.hpp"
+#include "cli/study.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/versions.hpp"
@@ -18,8 +19,8 @@
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query,     set_up_evaluate, set_up_map,
-                                  set_up_reproduce, set_up_serve,    set_up_simulate};
+constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map,  set_up_reproduce,
+                                  set_up_serve, set_up_simulate, set_up_study};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

@@ -1,12 +1,12 @@
 #include "cli/reproduction.hpp"
 
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <system_error>
 #include <vector>
 
+#include "cli/end_by_signal.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/output.hpp"
 #include "cli/process_pool.hpp"
@@ -61,13 +61,6 @@ std::vector<Job> jobs_of(const std::vector<Unit>& units, const std::vector<std::
     jobs.push_back(std::move(job));
   }
   return jobs;
-}
-
-/// Ends the process as the signal does that stopped the units.
-[[noreturn]] void end_by(int signal) {
-  print_message("stopped; the same command goes on where it was");
-  std::raise(signal);
-  throw Error("stopped by a signal that this process ignores");
 }
 
 /// What failed, and how badly.

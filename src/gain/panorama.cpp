@@ -69,17 +69,17 @@ JointBox with_turn(JointBox box, double turn_rad) {
   return box;
 }
 
-void check(const PanoramaOptions& options) {
+}  // namespace
+
+void PanoramaOptions::validate() const {
   const auto require = [](double value, const char* name) {
     if (std::isfinite(value) && value > 0.0) return;
     throw InputError(std::string("panorama: ") + name + " must be a finite number above 0");
   };
-  require(options.ray_spacing, "ray_spacing");
-  require(options.layer_spacing, "layer_spacing");
-  require(options.smoothing, "smoothing");
+  require(ray_spacing, "ray_spacing");
+  require(layer_spacing, "layer_spacing");
+  require(smoothing, "smoothing");
 }
-
-}  // namespace
 
 class Panorama::Impl {
  public:
@@ -282,7 +282,7 @@ class Panorama::Impl {
 Panorama::Panorama(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
                    const MovingMast& mast, const JointBox& box, const PanoramaOptions& options) {
   sensor.validate();
-  check(options);
+  options.validate();
   impl_ = std::make_unique<Impl>(std::move(grid), sensor, mast, box, options);
 }
 

@@ -3,14 +3,6 @@
 namespace nbvopt {
 namespace {
 
-/// Half as dense as the sensor's rays, and few layers: what finer panoramas find is not better once
-/// it was polished on the exact gain. A voxel's rays must be counted at the sensor's own spacing.
-PanoramaOptions options_for(Counting counting) {
-  constexpr double kLayerSpacing = 6.0;
-  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,
-          .layer_spacing = kLayerSpacing};
-}
-
 /// Keeps the roots of the residuals smooth: a share of a patch's bound.
 constexpr double kResidualFloor = 1e-6;
 
@@ -18,8 +10,9 @@ constexpr double kResidualFloor = 1e-6;
 
 PanoramaObjective::PanoramaObjective(std::shared_ptr<const VoxelGrid> grid,
                                      const SensorOptions& sensor, const MovingMast& mast,
-                                     const JointBox& box, SearchTrace* trace)
-    : JointObjective(mast, sensor, box), grid_(std::move(grid)), trace_(trace) {}
+                                     const JointBox& box, const PanoramaOptions& options,
+                                     SearchTrace* trace)
+    : JointObjective(mast, sensor, box), grid_(std::move(grid)), options_(options), trace_(trace) {}
 
 double PanoramaObjective::value(const Point& x) const {
   return noted(x, panorama().gain(JointPosition::from(x)));
@@ -48,9 +41,8 @@ double PanoramaObjective::value_and_residuals(const Point& x, Eigen::VectorXd& r
 
 const Panorama& PanoramaObjective::panorama() const {
   std::call_once(made_, [this] {
-    panorama_ =
-        std::make_unique<Panorama>(grid_, sensor(), mast(), JointBox{box().lower, box().upper},
-                                   options_for(sensor().counting));
+    panorama_ = std::make_unique<Panorama>(grid_, sensor(), mast(),
+                                           JointBox{box().lower, box().upper}, options_);
   });
   return *panorama_;
 }

@@ -15,9 +15,10 @@ namespace nbvopt {
 class PanoramaObjective final : public JointObjective {
  public:
   /// The panorama is made when it is first needed: solvers without surrogates do not pay for it.
-  /// `trace` may be null. The arguments but the grid must outlive the objective.
+  /// `trace` may be null. The arguments but grid and options must outlive the objective.
   PanoramaObjective(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
-                    const MovingMast& mast, const JointBox& box, SearchTrace* trace);
+                    const MovingMast& mast, const JointBox& box, const PanoramaOptions& options,
+                    SearchTrace* trace);
 
   double value(const Point& x) const override;
   bool has_gradient() const override { return true; }
@@ -32,6 +33,7 @@ class PanoramaObjective final : public JointObjective {
   double noted(const Point& x, double gain) const;
 
   std::shared_ptr<const VoxelGrid> grid_;
+  PanoramaOptions options_;
   SearchTrace* trace_;
   mutable std::once_flag made_;
   mutable std::unique_ptr<const Panorama> panorama_;

@@ -103,6 +103,12 @@ std::string to_string(PlanStatus status) {
   return "?";
 }
 
+PanoramaOptions planning_panorama(Counting counting) {
+  constexpr double kLayerSpacing = 6.0;
+  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,
+          .layer_spacing = kLayerSpacing};
+}
+
 MovingMast moving_mast(const PlanRequest& request, const Mast& mast) {
   return {mast, request.T_map_base, request.base_twist, request.joints};
 }
@@ -131,7 +137,9 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   result.box = search_box(request);
 
   const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
-  const PanoramaObjective surrogate(grid_, sensor_, mast, result.box, trace.get());
+  const PanoramaObjective surrogate(grid_, sensor_, mast, result.box,
+                                    request.surrogate.value_or(planning_panorama(sensor_.counting)),
+                                    trace.get());
   const ViewObjective objective(mast, sensor_, result.box, *evaluator_, &surrogate, trace.get());
   const SolveResult solved =
       solver.solve(objective, {request.joints.vector(), request.stop, request.seed});

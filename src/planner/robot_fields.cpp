@@ -1,61 +1,16 @@
 #include "nbvopt/planner/robot_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "planner/edit_distance.hpp"
 #include "planner/field_table.hpp"
+#include "planner/field_value.hpp"
 
 namespace nbvopt {
 namespace {
 
-std::string to_text(const FieldValue& value) {
-  struct Writer {
-    std::string operator()(bool x) const { return x ? "true" : "false"; }
-    std::string operator()(double x) const { return format_number(x); }
-    std::string operator()(const std::string& x) const { return "'" + x + "'"; }
-    std::string operator()(const std::vector<double>& x) const {
-      return "a list of " + std::to_string(x.size()) + " numbers";
-    }
-  };
-  return std::visit(Writer{}, value);
-}
-
-// store() writes the value into the field; where it cannot, it says what the value must be.
-
-std::string store(const FieldValue& value, bool& field) {
-  const auto* truth = std::get_if<bool>(&value);
-  if (truth == nullptr) return "true or false";
-  field = *truth;
-  return {};
-}
-
-std::string store(const FieldValue& value, double& field) {
-  const auto* number = std::get_if<double>(&value);
-  if (number == nullptr) return "a number";
-  field = *number;
-  return {};
-}
-
-std::string store(const FieldValue& value, int& field) {
-  const auto* number = std::get_if<double>(&value);
-  if (number == nullptr || *number != std::floor(*number) ||
-      std::abs(*number) > std::numeric_limits<int>::max()) {
-    return "a whole number";
-  }
-  field = static_cast<int>(*number);
-  return {};
-}
-
-std::string store(const FieldValue& value, Eigen::Vector3d& field) {
-  const auto* list = std::get_if<std::vector<double>>(&value);
-  if (list == nullptr || list->size() != 3) return "a list of three numbers";
-  field << (*list)[0], (*list)[1], (*list)[2];
-  return {};
-}
+using nbvopt::store;
 
 template <class Enum>
 requires std::is_enum_v<Enum> std::string store(const FieldValue& value, Enum& field) {

@@ -1,5 +1,3 @@
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <array>
 #include <iomanip>
@@ -12,29 +10,10 @@
 #include "nbvopt/planner/robot_fields.hpp"
 #include "planner/edit_distance.hpp"
 #include "planner/field_table.hpp"
+#include "planner/yaml_value.hpp"
 
 namespace nbvopt {
 namespace {
-
-FieldValue scalar_value(const YAML::Node& node) {
-  const std::string& text = node.Scalar();
-  if (node.Tag() == "!") return text;  // quoted: a string whatever it looks like
-  if (text == "true" || text == "false") return text == "true";
-  if (const auto number = parse_number(text)) return *number;
-  return text;
-}
-
-FieldValue field_value(const YAML::Node& node, const std::string& field) {
-  if (node.IsScalar()) return scalar_value(node);
-  if (!node.IsSequence()) throw InputError(field + " has no value, give one or leave the key out");
-  std::vector<double> list;
-  for (const YAML::Node& element : node) {
-    const auto number = element.IsScalar() ? parse_number(element.Scalar()) : std::nullopt;
-    if (!number) throw InputError(field + " must be a list of numbers");
-    list.push_back(*number);
-  }
-  return list;
-}
 
 /// The keys of a map with their nodes, in the file's order.
 std::vector<std::pair<std::string, YAML::Node>> entries(const YAML::Node& map,
@@ -54,15 +33,6 @@ std::vector<FieldSetting> settings(const YAML::Node& block, const std::string& n
     result.push_back({key, field_value(node, name + "." + key)});
   }
   return result;
-}
-
-YAML::Node parse_yaml(const std::string& text, const std::string& name) {
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(name + ": line " + std::to_string(error.mark.line + 1) +
-                     ": not valid YAML: " + error.msg);
-  }
 }
 
 std::string to_yaml_value(bool value) { return value ? "true" : "false"; }

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "core/atomic_file.hpp"
+#include "core/file_lock.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 #include "nbvopt/map/map_file.hpp"
-#include "server/file_lock.hpp"
 #include "server/planner_service.hpp"
 #include "server/snapshot_file.hpp"
 
@@ -75,7 +75,7 @@ struct Server::Parts {
   explicit Parts(const ServerOptions& server_options)
       : options(server_options), address(parse_listen_address(options.listen)) {
     check_tls(address, options.tls);
-    if (address.socket) socket_lock.emplace(*address.socket, "socket");
+    if (address.socket) socket_lock.emplace(*address.socket, "server uses this socket");
     open_map();
     if (!options.data_folder.empty()) data.emplace(options.data_folder, own_files());
     handler.emplace(*store, snapshots ? &*snapshots : nullptr, data ? &*data : nullptr,
@@ -87,7 +87,7 @@ struct Server::Parts {
   void open_map() {
     const bool keeps_snapshots = !options.snapshot_file.empty();
     if (keeps_snapshots) {
-      snapshot_lock.emplace(options.snapshot_file, "snapshot");
+      snapshot_lock.emplace(options.snapshot_file, "server uses this snapshot");
       remove_unfinished_files(options.snapshot_file);
     }
     Snapshot first = first_map(options);

@@ -154,7 +154,7 @@ TEST_F(PanoramaResiduals, AreThereOfPanoramasPerRayOnly) {
   SensorOptions by_voxel = world_.sensor;
   by_voxel.counting = Counting::per_voxel;
   EXPECT_FALSE(
-      PanoramaObjective(world_.grid, by_voxel, mast_, world_.box, nullptr).has_residuals());
+      PanoramaObjective(world_.grid, by_voxel, mast_, world_.box, {}, nullptr).has_residuals());
 }
 
 }  // namespace

@@ -39,6 +39,11 @@ struct PanoramaOptions {
   double layer_spacing = 1.0;     ///< in voxels, or half voxels where they are 0.1 m or larger
   double smoothing = 1.0;         ///< the widest tau, in spacings of the layers' rays
   bool double_precision = false;  ///< the sums; single precision is good to 1e-6
+
+  bool operator==(const PanoramaOptions&) const = default;
+
+  /// Throws InputError that names the first bad field.
+  void validate() const;
 };
 
 /// The smooth gain over joint positions. Thread-safe; what it casts is kept.

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "nbvopt/core/stop.hpp"
+#include "nbvopt/gain/panorama.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/mast/moving_mast.hpp"
 #include "nbvopt/planner/robot.hpp"
@@ -26,7 +28,8 @@ struct PlanRequest {
   double min_gain = 1.0;       ///< below it the planner says that there is nothing to gain
   StopRule stop;
   std::uint64_t seed = 1;
-  bool record_trace = false;  ///< whether the answer lists every evaluation
+  bool record_trace = false;                 ///< whether the answer lists every evaluation
+  std::optional<PanoramaOptions> surrogate;  ///< none: planning_panorama()
 };
 
 enum class PlanStatus {
@@ -114,6 +117,11 @@ class Planner {
   std::shared_ptr<const VoxelGrid> grid_;
   std::shared_ptr<const ViewEvaluator> evaluator_;
 };
+
+/// The panorama that searches see: half as dense as the sensor's rays, and few layers, since what
+/// finer ones find is not better once it was polished on the exact gain. Per voxel it has the
+/// sensor's own density, or rays on a voxel could not be counted.
+PanoramaOptions planning_panorama(Counting counting);
 
 /// The mast of a request's robot on its moving base: what turns q into a sensor pose.
 MovingMast moving_mast(const PlanRequest& request, const Mast& mast);

@@ -32,6 +32,8 @@ struct StrategyOptions {
   double polish_tolerance = 0.02;  ///< as SolverOptions::tolerance
   double polish_step = 1.0;        ///< as SolverOptions::initial_step
   std::int64_t polish_evaluations = 60;
+
+  bool operator==(const StrategyOptions&) const = default;
 };
 
 /// A solver that searches on the objective's surrogate and answers with what the objective itself

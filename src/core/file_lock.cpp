@@ -1,4 +1,4 @@
-#include "server/file_lock.hpp"
+#include "core/file_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -30,7 +30,7 @@ FileLock::FileLock(const std::filesystem::path& path, const char* use)
     throw InputError(name + ".lock: cannot be made: " + std::generic_category().message(errno));
   }
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
-    throw InputError(name + ": another server uses this " + use + ", stop it or name another");
+    throw InputError(name + ": another " + use + ", stop it or name another");
   }
 }
 

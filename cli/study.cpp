@@ -1,0 +1,166 @@
+#include "cli/study.hpp"
+
+#include <unistd.h>
+
+#include <CLI/Option.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/arguments.hpp"
+#include "cli/end_by_signal.hpp"
+#include "cli/output.hpp"
+#include "cli/progress.hpp"
+#include "nbvopt/core/error.hpp"
+#include "study/record.hpp"
+#include "study/spec_file.hpp"
+#include "study/study_run.hpp"
+#include "study/worker.hpp"
+
+namespace nbvopt {
+namespace {
+
+using study::WorkKind;
+
+struct StudyOptions {
+  std::string spec_file;
+  std::string folder;
+  std::int64_t workers = 0;  ///< 0: one a core
+  std::string worker_command;
+  bool dry_run = false;
+  bool retry_failed = false;
+};
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : noun.ends_with('h') ? "es" : "s");
+}
+
+std::string to_text(const study::Study& study, const study::WorkCount& work, WorkKind kind) {
+  std::size_t starts = 0;
+  for (const study::StudyMap& map : study.maps) starts += map.starts.size();
+  std::string text = plural(study.maps.size(), "map") + ", " + plural(starts, "start") + ", " +
+                     plural(study.motion_times_s.size(), "motion time") + ", " +
+                     plural(study.modes.size(), "uncertainty mode") + ": " +
+                     plural(study::case_count(study), "case") + '\n';
+  if (kind == WorkKind::query) {
+    text += plural(study.searches.size(), "search") + ", " +
+            plural(study.budgets.size(), "budget") + ", " + plural(study.seeds.size(), "seed") +
+            ": " + plural(work.total, "unit") + '\n';
+  }
+  return text + std::to_string(work.done) + " done (" + std::to_string(work.failed) + " failed), " +
+         std::to_string(work.total - work.done) + " to run\n";
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string word; in >> word;) result.push_back(word);
+  return result;
+}
+
+study::RunOptions run_options(const StudyOptions& options) {
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return {.worker_command = options.worker_command.empty()
+                                ? std::vector<std::string>{"/proc/self/exe", "study", "worker"}
+                                : words(options.worker_command),
+          .workers = options.workers > 0 ? static_cast<std::size_t>(options.workers) : cores,
+          .retry_failed = options.retry_failed};
+}
+
+/// What was done, and how well the workers were used.
+std::string to_text(const study::CoordinatorResult& result, std::size_t workers) {
+  if (result.finished == 0) return "nothing to do: every unit has its record\n";
+  const double count = static_cast<double>(result.finished);
+  const double share = result.busy_ms / (result.wall_ms * static_cast<double>(workers));
+  const double overhead_ms =
+      result.wall_ms * static_cast<double>(workers) / count - result.busy_ms / count;
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "%zu units in %.1f s, %zu of them failed\n"
+      "%.2f ms a unit, %zu workers busy for %.1f %% of the time, overhead %.3f ms a unit\n",
+      result.finished, result.wall_ms / 1e3, result.failed, result.busy_ms / count, workers,
+      100.0 * share, overhead_ms);
+  return text.data();
+}
+
+void run(const StudyOptions& options, WorkKind kind) {
+  const study::DeclaredStudy declared = study::read_spec(options.spec_file);
+  for (const std::string& remark : declared.remarks) print_message("warning: " + remark);
+  const study::Study& study = declared.study;
+  const study::StudyFolder folder{options.folder};
+  const study::WorkCount work = study::count_work(study, folder, kind);
+  print_answer(to_text(study, work, kind));
+  if (options.dry_run) return;
+
+  const study::RunOptions how = run_options(options);
+  const std::size_t to_run = work.total - work.done + (how.retry_failed ? work.failed : 0);
+  Progress progress("study", static_cast<double>(to_run));
+  double ended = 0.0;
+  const auto on_end = [&](const study::Json& record) {
+    if (record.contains("failure")) {
+      progress.finish();
+      print_message("unit " + study::record_id(record) +
+                    " failed: " + record.at("failure").get<std::string>());
+    }
+    progress.update(++ended);
+  };
+  const study::CoordinatorResult result = study::run_study(study, folder, kind, how, on_end);
+  progress.finish();
+  if (result.stopped_by) end_by(*result.stopped_by);
+  print_answer(to_text(result, std::min(how.workers, std::max<std::size_t>(to_run, 1))));
+}
+
+/// Lines go out on a descriptor of their own: a library that prints must not get between them.
+void run_worker() {
+  const int out = ::dup(STDOUT_FILENO);
+  if (out < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
+    throw Error("the worker's standard output cannot be set aside");
+  }
+  study::run_worker(STDIN_FILENO, out);
+}
+
+void add_run_arguments(CLI::App& command, StudyOptions& options) {
+  command.add_option("SPEC", options.spec_file, "what is studied, a YAML file")->required();
+  command.add_option("--out", options.folder, "the study's folder, made if need be")
+      ->type_name("DIR")
+      ->required();
+  command.add_flag("--dry-run", options.dry_run, "only count what is to be done");
+  add_whole_number(command, "--workers", options.workers, 0, 1024,
+                   "processes that work side by side; 0: one a core. Answers do not depend on it");
+  command
+      .add_option("--worker-command", options.worker_command,
+                  "what starts a worker, words with blanks between them [this program]")
+      ->type_name("COMMAND");
+  command.add_flag("--retry-failed", options.retry_failed, "run units again that have failed");
+}
+
+void add_run(CLI::App& study, const char* name, const char* description, WorkKind kind) {
+  auto options = std::make_shared<StudyOptions>();
+  CLI::App* command = study.add_subcommand(name, description);
+  add_run_arguments(*command, *options);
+  command->callback([options, kind] { run(*options, kind); });
+}
+
+}  // namespace
+
+void set_up_study(CLI::App& app) {
+  CLI::App* study = app.add_subcommand("study", "Compare searches on many questions");
+  study->require_subcommand(1);
+  add_run(*study, "run", "Ask every question of every search; goes on where it was stopped",
+          WorkKind::query);
+  add_run(*study, "reference", "Find the best view of every question, by exhaustive search",
+          WorkKind::reference);
+  study
+      ->add_subcommand("worker",
+                       "Answer units of work, a line each, from standard input to standard output")
+      ->callback(run_worker);
+  study->footer("Keys of SPEC, records and the workers' protocol: docs/studies.md");
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,18 @@
+// YAML files whose scalars are typed by what they look like.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+#include "nbvopt/planner/robot_fields.hpp"
+
+namespace nbvopt {
+
+/// The document. Throws InputError "<name>: line <n>: not valid YAML: ..."
+YAML::Node parse_yaml(const std::string& text, const std::string& name);
+
+/// A scalar or a list of numbers. Throws InputError that names `field` for anything else.
+FieldValue field_value(const YAML::Node& node, const std::string& field);
+
+}  // namespace nbvopt

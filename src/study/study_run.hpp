@@ -1,0 +1,35 @@
+// Runs a study: all its units, or the reference of each of its cases, into the study's folder.
+#pragma once
+
+#include <functional>
+
+#include "study/coordinator.hpp"
+#include "study/study_file.hpp"
+
+namespace nbvopt::study {
+
+/// What is to be done, and what a run before has done.
+struct WorkCount {
+  std::size_t total = 0;
+  std::size_t done = 0;
+  std::size_t failed = 0;  ///< of those that are done
+};
+
+struct RunOptions {
+  std::vector<std::string> worker_command;
+  std::size_t workers = 1;
+  bool retry_failed = false;  ///< whether units that have failed count as not done
+};
+
+/// Counts the queries, or the references, of a study and those with a record. Throws InputError
+/// when the records cannot be read.
+WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind);
+
+/// Writes the study into its folder and runs what has no record there yet; every record is in its
+/// file before the next. `on_end` is told of each unit that has ended, with its record. Throws
+/// InputError when the folder is used by another run or cannot be written, and as run_units().
+CoordinatorResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
+                            const RunOptions& options,
+                            const std::function<void(const Json& record)>& on_end);
+
+}  // namespace nbvopt::study

@@ -1,0 +1,125 @@
+#include "study/unit_message.hpp"
+
+#include <array>
+#include <variant>
+
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+constexpr const char* kQuery = "query";
+constexpr const char* kReference = "reference";
+
+/// Null stands for a limit that there is not.
+Json limit_json(auto limit) { return limit > 0 ? Json(limit) : Json(nullptr); }
+
+template <class Limit>
+Limit limit_of(const Json& json) {
+  return json.is_null() ? Limit{} : json.get<Limit>();
+}
+
+WorkUnit unit_of(const Json& json) {
+  WorkUnit unit{.id = json.at("unit").get<std::string>(),
+                .kind = WorkKind::query,
+                .map = json.at("map").get<std::string>(),
+                .map_digest = json.at("map_digest").get<std::string>(),
+                .robot = json.at("robot").get<std::string>(),
+                .start = start_of(json.at("start")),
+                .motion_time_s = json.at("motion_time_s").get<double>(),
+                .mode = mode_of(json.at("uncertainty_mode").get<std::string>()),
+                .search = {},
+                .budget = {},
+                .seed = 1};
+  const auto kind = json.at("kind").get<std::string>();
+  if (kind == kReference) {
+    unit.kind = WorkKind::reference;
+    return unit;
+  }
+  if (kind != kQuery) throw InputError("unit: kind '" + kind + "' is not known");
+  unit.search = search_of(json.at("search"));
+  unit.budget = budget_of(json);
+  unit.seed = json.at("seed").get<std::uint64_t>();
+  return unit;
+}
+
+}  // namespace
+
+Json to_json(const Start& start) {
+  const JointPosition& q = start.joints;
+  return {{"base", {start.x_m, start.y_m, start.z_m, start.yaw_rad}},
+          {"joints", {q.pan_rad, q.tilt_rad, q.height_m}}};
+}
+
+Json to_json(const Search& search) {
+  Json json = Json::object();
+  for (const FieldSetting& setting : settings(search)) {
+    std::visit([&](const auto& value) { json[setting.key] = value; }, setting.value);
+  }
+  return json;
+}
+
+Json to_json(const Budget& budget) {
+  return {{"max_evaluations", limit_json(budget.max_evaluations)},
+          {"time_limit_ms", limit_json(budget.time_limit_ms)}};
+}
+
+Start start_of(const Json& json) {
+  const auto base = json.at("base").get<std::array<double, 4>>();
+  const auto joints = json.at("joints").get<std::array<double, 3>>();
+  return {base[0], base[1], base[2], base[3], {joints[0], joints[1], joints[2]}};
+}
+
+Search search_of(const Json& json) {
+  Search search;
+  for (const auto& [key, value] : json.items()) {
+    FieldSetting setting{key, {}};
+    if (value.is_string()) {
+      setting.value = value.get<std::string>();
+    } else {
+      setting.value = value.get<double>();
+    }
+    set_search(search, setting, "search");
+  }
+  return search;
+}
+
+Budget budget_of(const Json& json) {
+  return {.max_evaluations = limit_of<std::int64_t>(json.at("max_evaluations")),
+          .time_limit_ms = limit_of<double>(json.at("time_limit_ms"))};
+}
+
+UncertaintyMode mode_of(const std::string& name) {
+  SensorOptions sensor;
+  const std::array setting{FieldSetting{"uncertainty_mode", name}};
+  set_fields(sensor, setting, "unit");
+  return sensor.uncertainty_mode;
+}
+
+std::string to_line(const WorkUnit& unit) {
+  const bool is_query = unit.kind == WorkKind::query;
+  Json json{{"unit", unit.id},
+            {"kind", is_query ? kQuery : kReference},
+            {"map", unit.map.string()},
+            {"map_digest", unit.map_digest},
+            {"robot", unit.robot.string()},
+            {"start", to_json(unit.start)},
+            {"motion_time_s", unit.motion_time_s},
+            {"uncertainty_mode", to_string(unit.mode)}};
+  if (is_query) {
+    json["search"] = to_json(unit.search);
+    json.update(to_json(unit.budget));
+    json["seed"] = unit.seed;
+  }
+  return json.dump();
+}
+
+WorkUnit parse_work_unit(std::string_view line) {
+  try {
+    return unit_of(Json::parse(line));
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("unit: ") + error.what());
+  }
+}
+
+}  // namespace nbvopt::study

@@ -1,0 +1,55 @@
+// A unit of work as a line of the protocol between coordinator and workers (docs/studies.md).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "study/study.hpp"
+
+namespace nbvopt::study {
+
+/// JSON whose keys keep the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+/// The version of the protocol that workers say hello with.
+inline constexpr int kProtocolVersion = 1;
+
+enum class WorkKind {
+  query,      ///< what a search finds
+  reference,  ///< what there is to be found
+};
+
+/// All that a worker needs to know.
+struct WorkUnit {
+  std::string id;
+  WorkKind kind = WorkKind::query;
+  std::filesystem::path map;
+  std::string map_digest;  ///< of the map's content, which must not have changed
+  std::filesystem::path robot;
+  Start start;
+  double motion_time_s = 0.0;
+  UncertaintyMode mode = UncertaintyMode::both;
+  Search search;  ///< of a query, as the rest below
+  Budget budget;
+  std::uint64_t seed = 1;
+};
+
+Json to_json(const Start& start);
+Json to_json(const Search& search);
+Json to_json(const Budget& budget);
+
+// The way back. Throw nlohmann's exceptions, and InputError for names that are not known.
+Start start_of(const Json& json);
+Search search_of(const Json& json);
+Budget budget_of(const Json& json);
+UncertaintyMode mode_of(const std::string& name);
+
+/// One line, without its end.
+std::string to_line(const WorkUnit& unit);
+
+/// Throws InputError that says what is wrong with the line.
+WorkUnit parse_work_unit(std::string_view line);
+
+}  // namespace nbvopt::study

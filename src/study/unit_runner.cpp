@@ -1,0 +1,205 @@
+#include "study/unit_runner.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/planner.hpp"
+#include "study/digest.hpp"
+#include "study/reference_search.hpp"
+#include "study/start_sampling.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+constexpr const char* kPaperCode = "paper-code";
+constexpr std::array kModes{UncertaintyMode::distance, UncertaintyMode::angle,
+                            UncertaintyMode::both};
+
+double elapsed_ms(StopRule::Clock::time_point since) {
+  return std::chrono::duration<double, std::milli>(StopRule::Clock::now() - since).count();
+}
+
+Json joints_json(const JointPosition& q) { return {q.pan_rad, q.tilt_rad, q.height_m}; }
+
+PlanRequest request_of(const WorkUnit& unit) {
+  PlanRequest request = request_of(unit.start);
+  request.motion_time_s = unit.motion_time_s;
+  request.min_gain = 0.0;  // a search is to be judged by what it finds, however little
+  request.seed = unit.seed;
+  request.record_trace = true;
+  if (unit.budget.max_evaluations > 0) request.stop.max_evaluations = unit.budget.max_evaluations;
+  return request;
+}
+
+}  // namespace
+
+/// A map and a robot, ready to be asked.
+class UnitRunner::Scene {
+ public:
+  explicit Scene(const WorkUnit& unit)
+      : map_file_(unit.map),
+        robot_file_(unit.robot),
+        map_digest_(file_digest(unit.map)),
+        robot_(read_robot(unit.robot)),
+        map_(read_map(unit.map)),
+        grid_(VoxelGrid::lazy(map_)) {}
+
+  bool is_of(const WorkUnit& unit) const {
+    return unit.map == map_file_ && unit.robot == robot_file_;
+  }
+  void check_digest(const WorkUnit& unit) const {
+    if (unit.map_digest == map_digest_) return;
+    throw InputError(unit.map.string() + " has changed since the study began");
+  }
+
+  const VoxelGrid& grid() const { return *grid_; }
+  Mast mast() const { return Mast(robot_.mast); }
+
+  /// The exact gain, as this mode counts it.
+  const ViewEvaluator& exact(UncertaintyMode mode) { return *judge(mode, "exact").evaluator; }
+  const Planner& planner(UncertaintyMode mode, const std::string& evaluator) {
+    return judge(mode, evaluator).planner;
+  }
+  Counting counting() const { return robot_.sensor.counting; }
+
+ private:
+  struct Judge {
+    std::shared_ptr<const ViewEvaluator> evaluator;
+    Planner planner;
+  };
+
+  const Judge& judge(UncertaintyMode mode, const std::string& evaluator) {
+    const auto key = std::pair(mode, evaluator);
+    const auto known = judges_.find(key);
+    if (known != judges_.end()) return known->second;
+    Robot robot = robot_;
+    robot.sensor.uncertainty_mode = mode;
+    std::shared_ptr<const ViewEvaluator> made;
+    if (evaluator == kPaperCode) {
+      robot.sensor = paper_code_sensor(robot.sensor);
+      made = make_paper_code_evaluator(map_, robot.sensor);
+    } else {
+      made = make_exact_evaluator(grid_, DepthCamera(robot.sensor));
+    }
+    return judges_.emplace(key, Judge{made, Planner(robot, grid_, made)}).first->second;
+  }
+
+  std::filesystem::path map_file_;
+  std::filesystem::path robot_file_;
+  std::string map_digest_;
+  Robot robot_;
+  UncertaintyMap map_;
+  std::shared_ptr<const VoxelGrid> grid_;
+  std::map<std::pair<UncertaintyMode, std::string>, Judge> judges_;
+};
+
+namespace {
+
+/// The steps of the best exact gain. What was searched on another evaluator is judged again.
+Json progress_json(const std::vector<TracePoint>& trace, const ViewEvaluator& exact,
+                   const PlanRequest& request, const Mast& mast, bool is_exact,
+                   std::vector<double>& times_ms) {
+  std::vector<std::size_t> evaluations;
+  std::vector<std::size_t> exact_evaluations;
+  std::vector<double> gains;
+  std::size_t exact_count = 0;
+  double best = -1.0;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const TracePoint& point = trace[i];
+    if (point.kind != EvaluationKind::exact) continue;
+    ++exact_count;
+    if (!(point.gain > best)) continue;
+    best = point.gain;
+    const double gain =
+        is_exact ? point.gain : exact.evaluate(T_map_sensor(request, mast, point.joints)).gain;
+    if (!gains.empty() && gain <= gains.back()) continue;
+    evaluations.push_back(i + 1);
+    exact_evaluations.push_back(exact_count);
+    gains.push_back(gain);
+    times_ms.push_back(point.time_ms);
+  }
+  return {{"evaluations", evaluations}, {"exact_evaluations", exact_evaluations}, {"gain", gains}};
+}
+
+}  // namespace
+
+UnitRunner::UnitRunner(SolverFactory make) : make_(std::move(make)) {}
+UnitRunner::~UnitRunner() = default;
+
+Json UnitRunner::run(const WorkUnit& unit) {
+  if (!scene_ || !scene_->is_of(unit)) {
+    scene_.reset();  // first: two big maps need not fit into memory
+    scene_ = std::make_unique<Scene>(unit);
+  }
+  scene_->check_digest(unit);
+  return unit.kind == WorkKind::query ? run_query(unit) : run_reference(unit);
+}
+
+Json UnitRunner::run_query(const WorkUnit& unit) {
+  const bool is_exact = unit.search.evaluator != kPaperCode;
+  const auto solver = make_(unit.search);
+  const Planner& planner = scene_->planner(unit.mode, unit.search.evaluator);
+  PlanRequest request = request_of(unit);
+  request.surrogate = surrogate_options(unit.search, scene_->counting());
+  // Whoever is first at a place would pay for its bricks otherwise.
+  scene_->grid().make_ready(planner.reachable_voxels(request));
+  if (unit.budget.time_limit_ms > 0.0) {
+    request.stop.deadline =
+        StopRule::Clock::now() +
+        std::chrono::duration_cast<StopRule::Clock::duration>(
+            std::chrono::duration<double, std::milli>(unit.budget.time_limit_ms));
+  }
+  const PlanResult result = planner.plan(request, *solver);
+
+  const Mast mast = scene_->mast();
+  const ViewEvaluator& exact = scene_->exact(unit.mode);
+  const auto exact_gain = [&](const JointPosition& q) {
+    return exact.evaluate(T_map_sensor(request, mast, q)).gain;
+  };
+  std::vector<double> progress_ms;
+  const Json progress = progress_json(result.trace, exact, request, mast, is_exact, progress_ms);
+  Json gain_by_mode = Json::object();
+  for (const UncertaintyMode mode : kModes) {
+    gain_by_mode[to_string(mode)] = scene_->exact(mode).evaluate(result.T_map_sensor).gain;
+  }
+  return {{"status", to_string(result.status)},
+          {"joints", joints_json(result.joints)},
+          {"gain", is_exact ? result.view.gain : exact_gain(result.joints)},
+          {"current_gain", is_exact ? result.current.gain : exact_gain(request.joints)},
+          {"gain_by_mode", gain_by_mode},
+          {"evaluations", result.evaluations},
+          {"surrogate_evaluations", result.surrogate_evaluations},
+          {"move_time_s", result.move_time_s},
+          {"progress", progress},
+          {"times", {{"search_ms", result.search_time_ms}, {"progress_ms", progress_ms}}}};
+}
+
+Json UnitRunner::run_reference(const WorkUnit& unit) {
+  const auto begin = StopRule::Clock::now();
+  const Planner& planner = scene_->planner(unit.mode, "exact");
+  const PlanRequest request = request_of(unit);
+  scene_->grid().make_ready(planner.reachable_voxels(request));
+  const Mast mast = scene_->mast();
+  const Reference reference = find_reference(scene_->exact(unit.mode), moving_mast(request, mast),
+                                             planner.search_box(request));
+  Json levels = Json::array();
+  for (const ReferenceLevel& level : reference.levels) {
+    levels.push_back({{"steps", {level.steps[0], level.steps[1], level.steps[2]}},
+                      {"evaluations", level.evaluations},
+                      {"gain", level.gain}});
+  }
+  return {{"gain", reference.gain},
+          {"joints", joints_json(reference.joints)},
+          {"evaluations", reference.evaluations},
+          {"agreed", reference.has_agreed},
+          {"levels", levels},
+          {"times", {{"search_ms", elapsed_ms(begin)}}}};
+}
+
+}  // namespace nbvopt::study
