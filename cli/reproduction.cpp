@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include "cli/end_by_signal.hpp"
@@ -16,6 +15,7 @@
 #include "cli/unit_files.hpp"
 #include "cli/unit_summary.hpp"
 #include "core/atomic_file.hpp"
+#include "core/folder.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -39,12 +39,6 @@ void print_commands(const std::vector<Unit>& units) {
   for (const Unit& unit : units) text += command_line(unit) + '\n';
   print_answer(text + "# " + std::to_string(units.size()) + " commands, " +
                std::to_string(units.size() - units_to_run(units).size()) + " of them done\n");
-}
-
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string() + ": cannot be created: " + error.message());
 }
 
 std::vector<Job> jobs_of(const std::vector<Unit>& units, const std::vector<std::size_t>& to_run,

@@ -1,8 +1,5 @@
 #include "study/study_file.hpp"
 
-#include <array>
-#include <system_error>
-
 #include "core/atomic_file.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
@@ -80,9 +77,6 @@ Study study_of(const Json& json) {
 }  // namespace
 
 void write_study(const Study& study, const StudyFolder& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder.root, error);
-  if (error) throw InputError(folder.root.string() + ": cannot be made: " + error.message());
   write_file_atomically(folder.robot(), to_yaml(study.robot));
   write_file_atomically(folder.study(), study_json(study).dump(1) + '\n');
 }

@@ -19,8 +19,7 @@ struct StudyFolder {
   std::filesystem::path report() const { return root / "report"; }
 };
 
-/// Writes study and robot into the folder, which is made if need be. Throws InputError when that
-/// fails.
+/// Writes study and robot into the folder. Throws InputError when that fails.
 void write_study(const Study& study, const StudyFolder& folder);
 
 /// Reads them back. Throws InputError that names the file when they are missing or damaged.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/file_lock.hpp"
+#include "core/folder.hpp"
 #include "study/record.hpp"
 #include "study/record_file.hpp"
 
@@ -89,7 +90,7 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 CoordinatorResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
                             const RunOptions& options,
                             const std::function<void(const Json& record)>& on_end) {
-  std::filesystem::create_directories(folder.root);
+  create_folder(folder.root);
   const FileLock lock(folder.study(), "run writes this study");
   write_study(study, folder);
   RecordFile records(record_path(folder, kind));

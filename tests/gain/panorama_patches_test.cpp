@@ -7,6 +7,7 @@
 #include "gain/panorama_world.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/planner.hpp"
 #include "planner/panorama_objective.hpp"
 #include "support/error_message.hpp"
 
@@ -154,7 +155,8 @@ TEST_F(PanoramaResiduals, AreThereOfPanoramasPerRayOnly) {
   SensorOptions by_voxel = world_.sensor;
   by_voxel.counting = Counting::per_voxel;
   EXPECT_FALSE(
-      PanoramaObjective(world_.grid, by_voxel, mast_, world_.box, {}, nullptr).has_residuals());
+      PanoramaObjective(world_.grid, by_voxel, mast_, world_.box,
+                                 planning_panorama(by_voxel.counting), nullptr).has_residuals());
 }
 
 }  // namespace

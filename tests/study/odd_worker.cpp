@@ -1,0 +1,42 @@
+// A worker with solvers that misbehave, by their evaluator's step: a solver of that kind cannot be
+// registered by a user, but what stands for it (an endless loop, a crash, an exception) can happen.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include "study/worker.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+class OddSolver final : public Solver {
+ public:
+  explicit OddSolver(const Search& search) : usual_(make_search_solver(search)), search_(search) {}
+  std::string name() const override { return "odd"; }
+
+ private:
+  SolveResult do_solve(const Objective& objective, const SolveRequest& request) const override {
+    // The first steps of the pan grid, which no other test uses.
+    if (search_.step_pan_rad == 0.11) throw std::runtime_error("the solver threw");
+    if (search_.step_pan_rad == 0.12) {
+      while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+    if (search_.step_pan_rad == 0.13) std::abort();
+    if (search_.step_pan_rad == 0.14) ::write(STDOUT_FILENO, "noise\n", 6);
+    return usual_->solve(objective, request);
+  }
+
+  std::unique_ptr<Solver> usual_;
+  Search search_;
+};
+
+}  // namespace
+}  // namespace nbvopt::study
+
+int main() {
+  using namespace nbvopt::study;
+  run_worker(STDIN_FILENO, STDOUT_FILENO,
+             [](const Search& search) { return std::make_unique<OddSolver>(search); });
+}

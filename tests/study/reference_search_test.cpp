@@ -1,0 +1,118 @@
+#include "study/reference_search.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <optional>
+
+#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/planner.hpp"
+#include "support/oracle.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+/// A gain that is a function of the joints: with the base at the origin and no sensor offset they
+/// can be read off the pose.
+class TextbookGain final : public ViewEvaluator {
+ public:
+  explicit TextbookGain(double (*gain)(double pan, double tilt, double height)) : gain_(gain) {}
+  std::string name() const override { return "textbook"; }
+  ViewGain evaluate(const Transform& T_map_sensor) const override {
+    const Eigen::Vector3d forward = T_map_sensor.linear().col(2);
+    ViewGain view;
+    view.gain = gain_(std::atan2(forward.y(), forward.x()), std::asin(forward.z()),
+                      T_map_sensor.translation().z());
+    return view;
+  }
+
+ private:
+  double (*gain_)(double, double, double);
+};
+
+Reference search(double (*gain)(double, double, double), const JointBox& box) {
+  PlanRequest request;
+  request.joints.height_m = 0.4;
+  request.motion_time_s = 1.0;
+  return find_reference(TextbookGain(gain), moving_mast(request, Mast(MastOptions())), box);
+}
+
+TEST(ReferenceSearch, FindsASummitInside) {
+  const Reference found = search(
+      [](double pan, double tilt, double height) {
+        return 100.0 - 30.0 * std::pow(pan - 0.3, 2) - 20.0 * std::pow(tilt + 0.1, 2) -
+               50.0 * std::pow(height - 0.35, 2);
+      },
+      {{-1.0, -0.5, 0.2}, {1.0, 0.5, 0.5}});
+  EXPECT_NEAR(found.gain, 100.0, 1e-4);
+  EXPECT_NEAR(found.joints.pan_rad, 0.3, 2e-3);
+  EXPECT_NEAR(found.joints.tilt_rad, -0.1, 2e-3);
+  EXPECT_NEAR(found.joints.height_m, 0.35, 2e-3);
+  EXPECT_TRUE(found.has_agreed);
+  EXPECT_EQ(found.levels.size(), 2U);
+}
+
+TEST(ReferenceSearch, FindsASummitInACornerAndFrozenJoints) {
+  const JointBox box{{-1.0, 0.2, 0.4}, {1.0, 0.2, 0.5}};
+  const Reference found = search(
+      [](double pan, double tilt, double height) { return 10.0 + pan + tilt + height; }, box);
+  EXPECT_NEAR(found.gain, 11.7, 1e-9);
+  EXPECT_EQ(found.joints.vector(), box.max);
+}
+
+TEST(ReferenceSearch, FindsThePeakThatAFirstLatticeMisses) {
+  // 0.06 rad wide, between the points of the first lattice, beside a broad hill.
+  const Reference found = search(
+      [](double pan, double tilt, double) {
+        const double hill = std::exp(-std::pow(pan + 0.5, 2) - std::pow(tilt, 2));
+        const double peak = std::exp(-(std::pow(pan - 0.55, 2) + std::pow(tilt - 0.05, 2)) / 2e-3);
+        return 100.0 * hill + 150.0 * peak;
+      },
+      {{-1.0, -0.5, 0.4}, {1.0, 0.5, 0.4}});
+  EXPECT_GT(found.gain, 150.0);
+  EXPECT_TRUE(found.has_agreed);
+}
+
+TEST(ReferenceSearch, IsDeterministic) {
+  const auto rough = [](double pan, double tilt, double height) {
+    return 100.0 + std::sin(40.0 * pan) + std::sin(50.0 * tilt) + std::sin(90.0 * height);
+  };
+  const JointBox box{{-0.5, -0.3, 0.3}, {0.5, 0.3, 0.5}};
+  EXPECT_EQ(search(rough, box).gain, search(rough, box).gain);
+}
+
+/// The best views that another program found by brute force.
+class KnownOptima : public testing::TestWithParam<const char*> {};
+
+TEST_P(KnownOptima, AreReached) {
+  NBVOPT_REQUIRE_SHARED();
+  const nlohmann::json oracle = test::read_oracle(std::string(GetParam()) + "_optima.json");
+  Robot robot;
+  robot.sensor = test::oracle_sensor(oracle);
+  const UncertaintyMap map =
+      read_map(test::shared_dir() / "maps" / oracle.at("map").get<std::string>());
+  const auto grid = VoxelGrid::lazy(map);
+  const std::shared_ptr<const ViewEvaluator> exact =
+      make_exact_evaluator(grid, DepthCamera(robot.sensor));
+  const Planner planner(robot, grid, exact);
+  const Mast mast(robot.mast);
+  const nlohmann::json& cases = oracle.at("cases");
+  for (std::size_t i = 0; i < cases.size(); i += 4) {  // seconds each
+    const nlohmann::json& known = cases[i];
+    PlanRequest request;
+    request.T_map_base = test::oracle_base(known);
+    request.joints = test::oracle_joints(known);
+    request.motion_time_s = known.at("time_budget_s");
+    grid->make_ready(planner.reachable_voxels(request));
+    const Reference found =
+        find_reference(*exact, moving_mast(request, mast), planner.search_box(request));
+    EXPECT_GE(found.gain, known.at("best_gain").get<double>() * (1.0 - kReferenceAgreement));
+    EXPECT_TRUE(found.has_agreed);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KnownOptima, testing::Values("ASLAM_lab", "apartment_partial"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+}  // namespace
+}  // namespace nbvopt::study

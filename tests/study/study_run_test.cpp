@@ -1,0 +1,232 @@
+#include "study/study_run.hpp"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "core/text_file.hpp"
+#include "nbvopt/core/error.hpp"
+#include "study/record.hpp"
+#include "study/record_file.hpp"
+#include "study/study_fixture.hpp"
+#include "support/error_message.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Records by their unit, without what depends on time.
+using Records = std::map<std::string, Json>;
+
+class StudyRun : public testing::Test {
+ protected:
+  CoordinatorResult run(const Study& study, const std::string& name, std::size_t workers = 2,
+                        WorkKind kind = WorkKind::query, bool retry_failed = false) {
+    return run_study(
+        study, folder(name), kind,
+        {.worker_command = {NBVOPT_ODD_WORKER}, .workers = workers, .retry_failed = retry_failed},
+        [this](const Json& record) { on_end(record); });
+  }
+
+  StudyFolder folder(const std::string& name) const { return {files.folder / name}; }
+
+  static Records records(const std::filesystem::path& file) {
+    Records result;
+    for_each_record(file, [&](const Json& record) {
+      Json timeless = record;
+      timeless.erase("times");
+      result[record_id(record)] = timeless;
+    });
+    return result;
+  }
+
+  /// A spec with pan grids of these steps only, besides the paper's.
+  Study grids(const std::string& steps) const {
+    return files.read(
+        "maps: [cluttered.ot]\n"
+        "starts: {sampled: {count: 2}}\n"
+        "motion_times_s: [0.5]\n"
+        "unit_timeout_s: 1\n"
+        "solvers: [{solver: grid, step_pan_rad: " +
+        steps + "}]\n");
+  }
+
+  const test::StudyFiles files;
+  std::function<void(const Json&)> on_end = [](const Json&) {};
+};
+
+TEST_F(StudyRun, RecordsEveryUnit) {
+  const Study study = files.read(test::kSmallSpec);
+  const CoordinatorResult result = run(study, "out");
+  EXPECT_EQ(result.finished, 36U);
+  EXPECT_EQ(result.failed, 0U);
+  EXPECT_EQ(records(folder("out").records()).size(), 36U);
+  const WorkCount count = count_work(study, folder("out"), WorkKind::query);
+  EXPECT_EQ(count.total, 36U);
+  EXPECT_EQ(count.done, 36U);
+  EXPECT_EQ(run(study, "out").finished, 0U) << "what is done is not run again";
+}
+
+TEST_F(StudyRun, DoesNotDependOnTheNumberOfWorkers) {
+  const Study study = files.read(test::kSmallSpec);
+  run(study, "one", 1);
+  run(study, "two", 2);
+  run(study, "five", 5);
+  const Records one = records(folder("one").records());
+  EXPECT_EQ(one, records(folder("two").records()));
+  EXPECT_EQ(one, records(folder("five").records()));
+}
+
+TEST_F(StudyRun, RecordsAnswersThatKeepTheirPromises) {
+  const Study study = files.read(test::kSmallSpec);
+  run(study, "out");
+  run(study, "out", 2, WorkKind::reference);
+  const Results results = read_results(study, folder("out"));
+  EXPECT_EQ(results.missing_runs, 0U);
+  ASSERT_EQ(results.runs.size(), 36U);
+  for (const study::Run& run : results.runs) {
+    const Budget& budget = results.budgets[run.budget];
+    EXPECT_LE(run.evaluations + run.surrogate_evaluations, budget.max_evaluations);
+    EXPECT_GE(run.gain, run.current_gain);
+    EXPECT_EQ(run.gain, run.gain_by_mode[2]) << "the mode is both";
+    ASSERT_FALSE(run.progress.empty());
+    EXPECT_EQ(run.progress.front().gain, run.current_gain);
+    EXPECT_EQ(run.progress.front().evaluations, 1);
+    for (std::size_t i = 1; i < run.progress.size(); ++i) {
+      EXPECT_GT(run.progress[i].gain, run.progress[i - 1].gain);
+      EXPECT_GT(run.progress[i].evaluations, run.progress[i - 1].evaluations);
+      EXPECT_GE(run.progress[i].time_ms, run.progress[i - 1].time_ms);
+    }
+    const bool is_released_code = results.solvers[run.solver].starts_with("paper, released");
+    if (!is_released_code) {
+      EXPECT_EQ(run.progress.back().gain, run.gain);
+    }
+    const double reference = results.cases[run.case_index].reference_gain;
+    EXPECT_LE(run.gain, reference * (1.0 + 2e-3));
+  }
+}
+
+TEST_F(StudyRun, GoesOnAfterATornLine) {
+  const Study study = files.read(test::kSmallSpec);
+  run(study, "whole");
+  run(study, "torn");
+  const std::string file = folder("torn").records().string();
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  const CoordinatorResult rest = run(study, "torn");
+  EXPECT_GT(rest.finished, 10U);
+  EXPECT_LT(rest.finished, 36U);
+  EXPECT_EQ(records(folder("torn").records()), records(folder("whole").records()));
+}
+
+TEST_F(StudyRun, GrowsWithItsSpec) {
+  run(files.read(test::kSmallSpec), "out");
+  const Study more = files.read(std::string(test::kSmallSpec) + "seeds: [1, 2]\n");
+  EXPECT_EQ(run(more, "out").finished, 36U);
+  EXPECT_EQ(read_results(more, folder("out")).runs.size(), 72U);
+  EXPECT_EQ(read_results(read_study(folder("out")), folder("out")).runs.size(), 72U);
+}
+
+TEST_F(StudyRun, ASolverThatThrowsCostsItsUnits) {
+  const Study study = grids("[0.11, 0.3]");
+  const CoordinatorResult result = run(study, "out");
+  EXPECT_EQ(result.finished, 12U);
+  EXPECT_EQ(result.failed, 2U);
+  for (const auto& [id, record] : records(folder("out").records())) {
+    const bool throws = record.at("search") == "grid, step_pan_rad 0.11";
+    EXPECT_EQ(record.value("failure", ""), throws ? "the solver threw" : "");
+  }
+}
+
+TEST_F(StudyRun, ASolverThatHangsIsStopped) {
+  const Study study = grids("[0.12, 0.3]");
+  const CoordinatorResult result = run(study, "out");
+  EXPECT_EQ(result.finished, 12U);
+  EXPECT_EQ(result.failed, 2U);
+  const Results results = read_results(study, folder("out"));
+  EXPECT_EQ(results.runs[0].failure, "stopped by the watchdog after 1 s");
+}
+
+TEST_F(StudyRun, ASolverThatEndsItsWorkerCostsItsUnits) {
+  const Study study = grids("[0.13, 0.3]");
+  const CoordinatorResult result = run(study, "out");
+  EXPECT_EQ(result.finished, 12U);
+  EXPECT_EQ(result.failed, 2U);
+  EXPECT_EQ(read_results(study, folder("out")).runs[0].failure, "its worker ended, twice: Aborted");
+}
+
+TEST_F(StudyRun, RunsWhatHasFailedAgainWhenAsked) {
+  const Study study = grids("[0.11]");
+  run(study, "out");
+  EXPECT_EQ(run(study, "out").finished, 0U);
+  EXPECT_EQ(run(study, "out", 2, WorkKind::query, true).finished, 2U);
+}
+
+TEST_F(StudyRun, RefusesAWorkerThatIsNone) {
+  const Study study = files.read(test::kSmallSpec);
+  const auto message_with = [&](const std::vector<std::string>& command) {
+    return test::message_of<InputError>([&] {
+      run_study(study, folder("out"), WorkKind::query, {.worker_command = command, .workers = 2},
+                on_end);
+    });
+  };
+  EXPECT_THAT(message_with({"/nowhere/worker"}),
+              AllOf(HasSubstr("/nowhere/worker"), HasSubstr("cannot be started")));
+  EXPECT_THAT(message_with({"/bin/false"}),
+              AllOf(HasSubstr("/bin/false"), HasSubstr("ended before its first line")));
+  EXPECT_THAT(message_with({"/bin/echo", "hello"}), HasSubstr("is no worker"));
+  EXPECT_THAT(test::message_of<InputError>([&] { run(grids("[0.14]"), "noise"); }),
+              HasSubstr("wrote what is no answer: noise"));
+}
+
+TEST_F(StudyRun, RefusesAFolderInUse) {
+  const Study study = files.read(test::kSmallSpec);
+  std::string message;
+  on_end = [&](const Json&) {
+    if (message.empty()) {
+      message = test::message_of<InputError>([&] { run(study, "out"); });
+    }
+  };
+  run(study, "out", 1);
+  EXPECT_THAT(message, HasSubstr("another run writes this study"));
+}
+
+TEST_F(StudyRun, FailsUnitsWhoseMapHasChanged) {
+  const Study study = files.read(test::kSmallSpec);
+  files.write_map_file("cluttered.ot", 99);
+  EXPECT_EQ(run(study, "out").failed, 36U);
+  EXPECT_THAT(read_results(study, folder("out")).runs[0].failure,
+              HasSubstr("has changed since the study began"));
+}
+
+TEST_F(StudyRun, WhatAnObserverThrowsEndsIt) {
+  const Study study = files.read(test::kSmallSpec);
+  on_end = [](const Json&) { throw InputError("enough"); };
+  EXPECT_EQ(test::message_of<InputError>([&] { run(study, "out"); }), "enough");
+  on_end = [](const Json&) {};
+  run(study, "out");
+  EXPECT_EQ(records(folder("out").records()).size(), 36U);
+}
+
+TEST_F(StudyRun, AStopLosesNothing) {
+  const Study study = files.read(test::kSmallSpec);
+  run(study, "whole");
+  std::size_t ended = 0;
+  on_end = [&](const Json&) {
+    if (++ended == 5) std::raise(SIGINT);  // held back by the coordinator
+  };
+  const CoordinatorResult stopped = run(study, "stopped");
+  EXPECT_EQ(stopped.stopped_by, SIGINT);
+  EXPECT_LT(stopped.finished, 36U);
+  EXPECT_EQ(records(folder("stopped").records()).size(), stopped.finished);
+  on_end = [](const Json&) {};
+  run(study, "stopped");
+  EXPECT_EQ(records(folder("stopped").records()), records(folder("whole").records()));
+}
+
+}  // namespace
+}  // namespace nbvopt::study
