@@ -9,6 +9,7 @@
 #include "cli/view_arguments.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 
 namespace nbvopt {

@@ -19,6 +19,7 @@
 #include "core/number.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 #include "nbvopt/solver/registry.hpp"

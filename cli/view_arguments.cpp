@@ -2,19 +2,13 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <utility>
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 
 namespace nbvopt {
-namespace {
-
-constexpr const char* kPaperCode = "paper-code";
-
-}  // namespace
 
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--robot", arguments.robot_file,
@@ -27,7 +21,7 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
 void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
   app.add_option("--evaluator", arguments.evaluator,
                  "exact: every voxel that a ray pierces; paper-code: the paper's released code")
-      ->check(CLI::IsMember({"exact", kPaperCode}))
+      ->check(CLI::IsMember(evaluator_names()))
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option("--counting", arguments.counting,
@@ -49,7 +43,7 @@ Robot make_robot(const RobotArguments& arguments) {
 
 Robot make_robot(const ViewArguments& arguments) {
   Robot robot = make_robot(static_cast<const RobotArguments&>(arguments));
-  if (arguments.evaluator == kPaperCode) robot.sensor = paper_code_sensor(robot.sensor);
+  robot.sensor = evaluator_sensor(arguments.evaluator, robot.sensor);
   return robot;
 }
 
@@ -57,16 +51,6 @@ void set_counting(SensorOptions& sensor, const ViewArguments& arguments) {
   if (arguments.counting.empty()) return;
   const std::vector<FieldSetting> settings{{"counting", arguments.counting}};
   set_fields(sensor, settings, "--counting");
-}
-
-std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const UncertaintyMap& map,
-                                              std::shared_ptr<const VoxelGrid> grid,
-                                              const SensorOptions& sensor) {
-  if (name != kPaperCode) return make_exact_evaluator(std::move(grid), DepthCamera(sensor));
-  if (sensor.counting == Counting::per_voxel) {
-    throw UsageError("the paper-code evaluator counts per_ray only, use --evaluator exact");
-  }
-  return make_paper_code_evaluator(map, sensor);
 }
 
 }  // namespace nbvopt

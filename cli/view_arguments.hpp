@@ -5,11 +5,9 @@
 
 #include <CLI/App.hpp>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/planner/robot.hpp"
 
 namespace nbvopt {
@@ -45,11 +43,5 @@ Robot make_robot(const ViewArguments& arguments);
 
 /// Sets the counting that was asked for, if any: the command line wins over files.
 void set_counting(SensorOptions& sensor, const ViewArguments& arguments);
-
-/// The evaluator of that name. Throws UsageError when it cannot count as the sensor says. The map
-/// must outlive it.
-std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const UncertaintyMap& map,
-                                              std::shared_ptr<const VoxelGrid> grid,
-                                              const SensorOptions& sensor);
 
 }  // namespace nbvopt
