@@ -17,5 +17,13 @@ find_package(assimp 5.2 REQUIRED CONFIG)
 find_package(Protobuf 3.21 REQUIRED)
 find_package(gRPC 1.51 REQUIRED CONFIG)
 find_package(spdlog 1.10 REQUIRED CONFIG)
+# The Python module's: Debian's own Python, whichever else stands before it on the PATH.
+if(NBVOPT_BUILD_PYTHON)
+  if(NOT DEFINED Python_EXECUTABLE)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 REQUIRED CONFIG)
+endif()
 # Studies'.
 find_package(nlohmann_json 3.11 REQUIRED CONFIG)
