@@ -22,7 +22,7 @@ if(NBVOPT_BUILD_PYTHON)
   if(NOT DEFINED Python_EXECUTABLE)
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()
-  find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(Python REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(pybind11 2.10 REQUIRED CONFIG)
 endif()
 # Studies'.
