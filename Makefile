@@ -5,6 +5,8 @@ BUILD := build/$(PRESET)
 NBVOPT := $(BUILD)/cli/nbvopt
 DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 0.5
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
+# One of them needs what `make bench-search` wrote.
+NOTEBOOKS ?= 01_one_query 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search bench-server notebook \
@@ -48,9 +50,12 @@ bench-search: build  ## compare searches; every query's answer lands in out/sear
 bench-server: build  ## measure the planning server: latency, then ten minutes of scans and plans
 	@$(BUILD)/tests/bench/nbvopt_bench_server $(BENCH_ARGS)
 
-notebook: packages-notebooks  ## draw docs/images/search_quality.png from what bench-search wrote
-	@test -f out/search_quality.jsonl || { echo "out/search_quality.jsonl is missing: run make bench-search first" >&2; exit 1; }
-	@PYDEVD_DISABLE_FILE_VALIDATION=1 jupyter-nbconvert --log-level=WARN --to notebook --execute --output-dir out notebooks/search_quality.ipynb
+notebook: packages packages-notebooks  ## run the notebooks, which draw docs/images; search_quality after bench-search only
+	@cmake --preset $(PRESET) --log-level=WARNING
+	@cmake --build --preset $(PRESET) --target nbvopt_cli nbvopt_bindings
+	@for name in $(NOTEBOOKS); do echo "$$name"; notebooks/run.sh $$name $(BUILD) out/notebooks || exit; done
+	@find out/notebooks -name '*.png' -exec cp {} docs/images \;
+	@test -f out/search_quality.jsonl || echo "search_quality is left out: run make bench-search first"
 
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize

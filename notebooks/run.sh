@@ -1,0 +1,51 @@
+#!/bin/bash
+# Runs a notebook without a screen: notebooks/run.sh NAME BUILD OUT
+#
+# NAME: of the notebook, such as 01_one_query. BUILD: a build with the tool and the Python module.
+# OUT: the folder for the files that the notebook reads, its pictures, and its copy with outputs.
+# Exits with 77 where Debian's jupyter-nbconvert, its kernel or matplotlib is not installed.
+set -euo pipefail
+name=$1
+mkdir -p "$3"
+build=$(realpath "$2")
+out=$(realpath "$3")
+cd "$(dirname "$0")/.."
+nbvopt=$build/cli/nbvopt
+python=/usr/bin/python3 # the one that the module is built for
+
+if ! $python -c 'import ipykernel, matplotlib, matplotlib_inline, nbconvert' 2>/dev/null; then
+  echo "skipped: notebooks need jupyter-nbconvert, python3-ipykernel and python3-matplotlib"
+  exit 77
+fi
+
+# The files that the notebook reads.
+case $name in
+  01_one_query)
+    "$nbvopt" query datasets/office_partial.ot --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 \
+      --motion-time 1 --json-out "$out/answer.json" --trace "$out/trace.jsonl" \
+      --landscape "$out/landscape.json" >/dev/null
+    ;;
+  03_surrogate) ;; # asks the module only
+  search_quality)
+    [ -f out/search_quality.jsonl ] ||
+      { echo "out/search_quality.jsonl is missing: run make bench-search first" >&2; exit 1; }
+    ;;
+  *)
+    echo "notebooks/run.sh does not know the notebook '$name'" >&2
+    exit 1
+    ;;
+esac
+
+# A kernel of our own: another one called python3 may stand before Debian's.
+settings=$(mktemp -d)
+trap 'rm -rf "$settings"' EXIT
+mkdir -p "$settings/kernels/nbvopt"
+cat >"$settings/kernels/nbvopt/kernel.json" <<EOF
+{"argv": ["$python", "-m", "ipykernel_launcher", "-f", "{connection_file}"],
+ "display_name": "nbvopt", "language": "python"}
+EOF
+export JUPYTER_PATH=$settings JUPYTER_CONFIG_DIR=$settings IPYTHONDIR=$settings
+export PYTHONPATH=$build/python PYTHONDONTWRITEBYTECODE=1 PYDEVD_DISABLE_FILE_VALIDATION=1
+export NBVOPT_NOTEBOOK_OUT=$out
+$python -m nbconvert --log-level=WARN --to notebook --execute \
+  --ExecutePreprocessor.kernel_name=nbvopt --output-dir "$out" "notebooks/$name.ipynb"
