@@ -16,7 +16,7 @@ std::string shape_text(const py::array& array) {
 
 /// The numbers of an array or of nested sequences, all finite.
 DoubleArray numbers_from(const py::object& values, const std::string& name) {
-  const auto array = DoubleArray::ensure(values);
+  auto array = DoubleArray::ensure(values);
   if (!array) {
     PyErr_Clear();
     throw InputError(name + " must be an array of numbers");

@@ -1,4 +1,3 @@
-#include <pybind11/operators.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -38,7 +37,9 @@ void bind_robot(py::module_& module) {
             return py::make_tuple(robot.sensor.range_min_m, robot.sensor.range_max_m);
           },
           "Where the camera measures: (D_min, D_max).")
-      .def(py::self == py::self)
+      .def(
+          "__eq__", [](const Robot& robot, const Robot& other) { return robot == other; },
+          py::is_operator())
       .def("__repr__", [](const Robot& robot) {
         return robot == Robot{} ? "Robot()" : "Robot.parse('''" + to_yaml(robot) + "''')";
       });

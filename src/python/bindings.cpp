@@ -1,24 +1,26 @@
 // The extension module nbvopt._core; nbvopt/__init__.py shows what it has.
 #include "python/bindings.hpp"
 
+#include <exception>
+#include <utility>
+
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 
 PYBIND11_MODULE(_core, module) {
-  using namespace nbvopt::python;
   module.attr("__version__") = nbvopt::version();
   // Callers cannot tell a bad file, a bad value and a name that does not exist by type, and need
   // not: the message does.
   pybind11::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      std::rethrow_exception(std::move(thrown));
     } catch (const nbvopt::Error& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     }
   });
-  bind_map(module);
-  bind_robot(module);
-  bind_views(module);
-  bind_surrogate(module);
-  bind_query(module);
+  nbvopt::python::bind_map(module);
+  nbvopt::python::bind_robot(module);
+  nbvopt::python::bind_views(module);
+  nbvopt::python::bind_surrogate(module);
+  nbvopt::python::bind_query(module);
 }
