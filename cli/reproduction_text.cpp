@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/canvas.hpp"
+#include "cli/text_table.hpp"
 #include "core/number.hpp"
 
 namespace nbvopt {
@@ -85,14 +86,6 @@ constexpr Column<PredictionRow> kPredictionColumns[] = {
     {"bias_percent", "bias", Style::percent,
      [](const PredictionRow& row) { return finite(100.0 * row.record.bias()); }},
 };
-
-/// 1234567 as "1,234,567".
-std::string grouped(double value) {
-  std::string text = decimal(value, 0);
-  const std::size_t first = text.find_first_of("0123456789");
-  for (std::size_t i = text.size(); i > first + 3; i -= 3) text.insert(i - 3, ",");
-  return text;
-}
 
 std::string rounded(double value, Style style) {
   switch (style) {
