@@ -45,6 +45,23 @@ TEST(Ticks, SayAsManyDigitsAsTheyNeed) {
   EXPECT_EQ(ticks.label(0.15), "0.15");
 }
 
+std::vector<std::string> labels(const std::vector<Tick>& ticks) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : ticks) labels.push_back(tick.label);
+  return labels;
+}
+
+TEST(LogTicks, AreDecades) {
+  const std::vector<Tick> ticks = make_log_ticks(0.01, 20'000.0);
+  EXPECT_THAT(labels(ticks),
+              testing::ElementsAre("0.01", "0.1", "1", "10", "100", "1,000", "10,000"));
+  EXPECT_DOUBLE_EQ(ticks.front().value, 0.01) << "the ends included";
+}
+
+TEST(LogTicks, AreCloserWithinADecade) {
+  EXPECT_THAT(labels(make_log_ticks(0.3, 6.0)), testing::ElementsAre("0.5", "1", "2", "5"));
+}
+
 /// A robot that stays where it is, in a map of nothing or of one occupied voxel.
 class Plot : public testing::Test {
  protected:
