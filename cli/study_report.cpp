@@ -21,8 +21,7 @@ constexpr const char* kModesFile = "modes.csv";
 /// Name and content.
 using File = std::pair<std::string, std::string>;
 
-std::vector<File> make_files(const study::Results& results) {
-  const study::Evaluation evaluation = study::evaluate(results);
+std::vector<File> make_files(const study::Results& results, const study::Evaluation& evaluation) {
   std::vector<File> files{
       {"report.md", study_text(results, evaluation)},
       {"summary.csv", to_csv(summary_table(results, evaluation))},
@@ -51,10 +50,13 @@ void create_folder(const fs::path& folder) {
 
 void write_report(const study::Results& results, const fs::path& folder) {
   if (results.solvers.empty()) throw UsageError("the study " + results.study + " has no solver");
-  const std::vector<File> files = make_files(results);
+  const study::Evaluation evaluation = study::evaluate(results);
+  const std::vector<File> files = make_files(results, evaluation);
   create_folder(folder);
-  fs::remove(folder / kModesFile);  // of an earlier report, when there were several
   for (const auto& [name, content] : files) write_file_atomically(folder / name, content);
+  if (evaluation.modes) return;
+  std::error_code ignored;
+  fs::remove(folder / kModesFile, ignored);  // of an earlier report, when there were several modes
 }
 
 }  // namespace nbvopt

@@ -60,6 +60,15 @@ TEST(Comparison, CountsAFailedRunAsNothing) {
   EXPECT_NEAR(compare_with_control(results)[0].median_difference, -0.9, 1e-12);
 }
 
+TEST(Comparison, LooksAtTheLoosestBudget) {
+  Results results = results_of_control();
+  results.budgets = {{100, 0.0}, {10, 0.0}};
+  results.runs.push_back(made_run({.case_index = 0, .solver = 1, .gain = 95.0, .budget = 0}));
+  results.runs.push_back(made_run({.case_index = 0, .solver = 1, .gain = 10.0, .budget = 1}));
+  sort_runs(results);
+  EXPECT_NEAR(compare_with_control(results)[0].median_difference, 0.05, 1e-12);
+}
+
 TEST(Comparison, OfTheControlAloneIsEmpty) {
   EXPECT_TRUE(compare_with_control(made_results({"auto"}, {1.0})).empty());
 }

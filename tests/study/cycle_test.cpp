@@ -39,6 +39,7 @@ TEST(Cycle, IsGainOverMotionAndComputing) {
   EXPECT_EQ(rows[1].mean_gain, 45.0) << "a failed run gains nothing";
   EXPECT_EQ(rows[1].mean_move_time_s, 1.0);
   EXPECT_EQ(rows[1].gain_per_s_moving, 30.0);
+  EXPECT_EQ(rows[1].gain_per_s_waiting, 30.0);
   EXPECT_EQ(rows[2].mean_gain, 200.0);
   EXPECT_EQ(rows[2].gain_per_s_moving, 125.0);
   EXPECT_EQ(rows[2].gain_per_s_waiting, 80.0);

@@ -44,6 +44,17 @@ TEST(PerformanceProfile, IsTheDistributionOfCostsOverTheLeast) {
   EXPECT_EQ(profiles[2].evaluations.questions, 1U) << "asked where it has a run";
 }
 
+TEST(PerformanceProfile, ComparesRunsOfOneSeed) {
+  Results results = made_results({"auto", "random"}, {100.0});
+  results.runs = {made_run({.solver = 0, .gain = 100.0, .evaluations = 10, .seed = 1}),
+                  made_run({.solver = 0, .gain = 100.0, .evaluations = 40, .seed = 2}),
+                  made_run({.solver = 1, .gain = 100.0, .evaluations = 20, .seed = 1}),
+                  made_run({.solver = 1, .gain = 100.0, .evaluations = 20, .seed = 2})};
+  const std::vector<SolverProfiles> profiles = performance_profiles(results, 0.99);
+  EXPECT_THAT(profiles[0].evaluations.costs, ElementsAre(1.0, 2.0));
+  EXPECT_THAT(profiles[1].evaluations.costs, ElementsAre(1.0, 2.0));
+}
+
 TEST(PerformanceProfile, OfViewsThatCostNothingIsFinite) {
   Results results = made_results({"auto", "random"}, {0.0});
   results.runs = {made_run({.solver = 0, .evaluations = 0, .time_ms = 0.0}),
