@@ -267,10 +267,15 @@ TextTable modes_table(const study::ModeTable& modes) {
 
 TextTable modes_overview(const study::ModeTable& modes) {
   TextTable table{{{"", "chosen by"}}, {}};
-  for (std::size_t mode = 0; mode < kModes.size(); ++mode) {
-    table.columns.push_back({"", std::string("judged by ") + kModes[mode], ratio_digits});
-    table.rows.push_back({kModes[mode]});
-    for (const double ratio : modes.ratio[mode]) table.rows[mode].emplace_back(ratio);
+  const auto is_studied = [&](std::size_t mode) { return modes.pairs[mode][mode] > 0; };
+  for (std::size_t chosen = 0; chosen < kModes.size(); ++chosen) {
+    if (!is_studied(chosen)) continue;
+    table.columns.push_back({"", std::string("judged by ") + kModes[chosen], ratio_digits});
+    std::vector<TableCell>& row = table.rows.emplace_back();
+    row.emplace_back(kModes[chosen]);
+    for (std::size_t judged = 0; judged < kModes.size(); ++judged) {
+      if (is_studied(judged)) row.emplace_back(modes.ratio[chosen][judged]);
+    }
   }
   return table;
 }

@@ -44,7 +44,7 @@ TextTable cycle_overview(const study::Results& results, const study::Evaluation&
 /// A column a map; the motion times that are best by moving and by waiting.
 TextTable best_motion_time_overview(const study::Results& results,
                                     const study::Evaluation& evaluation);
-/// A row a mode that chose, a column a mode that judges.
+/// A row a mode that chose, a column a mode that judges, of those that the study has.
 TextTable modes_overview(const study::ModeTable& modes);
 
 }  // namespace nbvopt

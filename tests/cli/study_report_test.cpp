@@ -183,6 +183,7 @@ TEST_F(StudyReport, TellsOfModesOnlyWhereThereAreSeveral) {
   results.cases[0].mode = UncertaintyMode::angle;
   write();
   EXPECT_THAT(written("report.md"), HasSubstr("## Uncertainty modes"));
+  EXPECT_THAT(written("report.md"), HasSubstr("| chosen by | judged by angle | judged by both |"));
   results.cases[0].mode = UncertaintyMode::both;
   write();
   EXPECT_THAT(written("report.md"), Not(HasSubstr("## Uncertainty modes")));
