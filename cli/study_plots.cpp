@@ -286,7 +286,7 @@ std::string cycle_plot(const Results& results, const Evaluation& evaluation) {
       make_panel("Computing and the answer's motion", &study::Cycle::gain_per_s_moving),
       make_panel("Computing and the whole motion time", &study::Cycle::gain_per_s_waiting)};
   return page("Gain a second",
-              "Mean, with the loosest budget, of the exact gain over the time of a cycle", results,
+              "Exact gain of all runs with the loosest budget over the time of all", results,
               mean_heights(panels), panels);
 }
 

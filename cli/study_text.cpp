@@ -105,13 +105,14 @@ std::string budgets(const Results& results, const Evaluation& evaluation) {
 std::string cycles(const Results& results, const Evaluation& evaluation) {
   return section(
       "Gain a second",
-      "Moving: the gain over computing and the motion of the answer, as in the paper, a second, "
-      "by motion time.\n\n" +
+      "The gain of all runs over the time of all, as a robot that does one after the other "
+      "collects it. Moving: the time of a run is computing and the motion of the answer, as in the "
+      "paper. A column a motion time.\n\n" +
           to_markdown(cycle_overview(results, evaluation, &study::Cycle::gain_per_s_moving)) +
-          "\nWaiting: the gain over computing and the whole motion time, a second, of a robot "
-          "that waits for the end of the time that its joints have.\n\n" +
+          "\nWaiting: the time is computing and the whole motion time, of a robot that waits for "
+          "the end of the time that its joints have.\n\n" +
           to_markdown(cycle_overview(results, evaluation, &study::Cycle::gain_per_s_waiting)) +
-          "\nThe motion time with the greatest mean gain a second on each map: by moving, by "
+          "\nThe motion time with the greatest gain a second on each map: by moving, by "
           "waiting.\n\n" +
           to_markdown(best_motion_time_overview(results, evaluation)) +
           "\n![Gain a second](cycle.png)\n");
@@ -165,7 +166,7 @@ std::string caveats(const Results& results, const Evaluation& evaluation) {
                     " gain where the reference has none; their ratio counts as 1.");
   }
   if (evaluation.modes) {
-    lines.push_back("Gains a second mix uncertainty modes, whose gains have different scales.");
+    lines.emplace_back("Gains a second mix uncertainty modes, whose gains have different scales.");
   }
   if (lines.empty()) return {};
   std::string text;

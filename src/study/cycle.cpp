@@ -8,47 +8,43 @@
 #include <utility>
 
 #include "study/ratio.hpp"
-#include "study/sample.hpp"
 
 namespace nbvopt::study {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double gain_per_s(double gain, double motion_s, double search_time_ms) {
-  return gain / (motion_s + search_time_ms / 1000.0);
-}
-
-struct Samples {
-  std::vector<double> gain;
-  std::vector<double> move_time_s;
-  std::vector<double> moving;
-  std::vector<double> waiting;
+struct Sums {
+  std::size_t runs = 0;
+  std::size_t answers = 0;
+  double gain = 0.0;
+  double move_time_s = 0.0;
+  double moving_s = 0.0;   ///< computing and moving
+  double waiting_s = 0.0;  ///< computing and waiting for the end of the motion time
 
   void add(const Run& run, double motion_time_s) {
-    const bool has_end = motion_time_s > 0.0;
+    const double search_s = run.search_time_ms / 1000.0;
+    ++runs;
+    waiting_s += search_s + motion_time_s;
     if (run.has_failed()) {
-      gain.push_back(0.0);
-      moving.push_back(0.0);
-      if (has_end) waiting.push_back(0.0);
+      moving_s += search_s + motion_time_s;
       return;
     }
-    gain.push_back(run.gain);
-    move_time_s.push_back(run.move_time_s);
-    if (run.move_time_s + run.search_time_ms > 0.0) {
-      moving.push_back(gain_per_s(run.gain, run.move_time_s, run.search_time_ms));
-    }
-    if (has_end) waiting.push_back(gain_per_s(run.gain, motion_time_s, run.search_time_ms));
+    ++answers;
+    gain += run.gain;
+    move_time_s += run.move_time_s;
+    moving_s += search_s + run.move_time_s;
   }
 
   Cycle cycle(std::size_t solver, double motion_time_s) const {
+    const auto per_s = [&](double time_s) { return time_s > 0.0 ? gain / time_s : kNaN; };
     return {.solver = solver,
             .motion_time_s = motion_time_s,
-            .runs = gain.size(),
-            .mean_gain = mean(gain),
-            .mean_move_time_s = mean(move_time_s),
-            .gain_per_s_moving = mean(moving),
-            .gain_per_s_waiting = mean(waiting)};
+            .runs = runs,
+            .mean_gain = gain / static_cast<double>(runs),
+            .mean_move_time_s = move_time_s / static_cast<double>(answers),
+            .gain_per_s_moving = per_s(moving_s),
+            .gain_per_s_waiting = motion_time_s > 0.0 ? per_s(waiting_s) : kNaN};
   }
 };
 
@@ -76,36 +72,36 @@ double best_of(const std::vector<Cycle>& cycles, double Cycle::*figure) {
 }  // namespace
 
 std::vector<Cycle> cycles(const Results& results) {
-  std::map<std::pair<std::size_t, double>, Samples> samples;
+  std::map<std::pair<std::size_t, double>, Sums> sums;
   for (std::size_t solver = 0; solver < results.solvers.size(); ++solver) {
-    for (const CaseResult& one : results.cases) samples[{solver, one.motion_time_s}];
+    for (const CaseResult& one : results.cases) sums[{solver, one.motion_time_s}];
   }
   const std::size_t budget = loosest_budget(results);
   for (const Run& run : results.runs) {
     if (run.budget != budget) continue;
     const double motion_time_s = results.cases[run.case_index].motion_time_s;
-    samples[{run.solver, motion_time_s}].add(run, motion_time_s);
+    sums[{run.solver, motion_time_s}].add(run, motion_time_s);
   }
   std::vector<Cycle> rows;
-  for (const auto& [key, own] : samples) rows.push_back(own.cycle(key.first, key.second));
+  for (const auto& [key, own] : sums) rows.push_back(own.cycle(key.first, key.second));
   return rows;
 }
 
 std::vector<BestMotionTime> best_motion_times(const Results& results) {
-  std::map<std::pair<std::size_t, std::string>, std::map<double, Samples>> samples;
+  std::map<std::pair<std::size_t, std::string>, std::map<double, Sums>> sums;
   const std::size_t budget = loosest_budget(results);
   for (const Run& run : results.runs) {
     if (run.budget != budget) continue;
     const CaseResult& one = results.cases[run.case_index];
-    samples[{run.solver, one.map}][one.motion_time_s].add(run, one.motion_time_s);
+    sums[{run.solver, one.map}][one.motion_time_s].add(run, one.motion_time_s);
   }
   const std::vector<std::string> maps = maps_of(results);
   std::vector<BestMotionTime> rows;
   for (std::size_t solver = 0; solver < results.solvers.size(); ++solver) {
     for (const std::string& map : maps) {
       std::vector<Cycle> own;
-      for (const auto& [motion_time_s, sample] : samples[{solver, map}]) {
-        own.push_back(sample.cycle(solver, motion_time_s));
+      for (const auto& [motion_time_s, sum] : sums[{solver, map}]) {
+        own.push_back(sum.cycle(solver, motion_time_s));
       }
       rows.push_back({.solver = solver,
                       .map = map,

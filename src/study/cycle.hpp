@@ -9,14 +9,17 @@
 
 namespace nbvopt::study {
 
-/// Means over the runs with the loosest budget; a failed run gains nothing. NaN without runs.
+/// Over the runs with the loosest budget; NaN without runs. Gains a second are the gain of all runs
+/// over the time of all, as a robot that does one after the other collects it: a mean of quotients
+/// would be ruled by the answers that hardly move. A failed run gains nothing and takes the whole
+/// motion time.
 struct Cycle {
   std::size_t solver = 0;
   double motion_time_s = 0.0;
   std::size_t runs = 0;
   double mean_gain = 0.0;
   double mean_move_time_s = 0.0;  ///< of the answers
-  /// Gain over computing and the answer's own motion, as in the paper.
+  /// Gain over computing and the answers' own motion, as in the paper.
   double gain_per_s_moving = 0.0;
   /// Gain over computing and the whole motion time: of a robot that waits for the end of the slot.
   /// NaN where the motion time is 0, which has no end.
@@ -26,7 +29,7 @@ struct Cycle {
 /// A row for every solver and motion time, in this order, motion times ascending.
 std::vector<Cycle> cycles(const Results& results);
 
-/// The motion time with the greatest mean gain a second in a map, in the two meanings of Cycle; the
+/// The motion time with the greatest gain a second in a map, in the two meanings of Cycle; the
 /// shortest of equal ones. NaN where there is none.
 struct BestMotionTime {
   std::size_t solver = 0;
