@@ -16,6 +16,7 @@
 #include "cli/end_by_signal.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "cli/study_report.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
 #include "study/spec_file.hpp"
@@ -125,6 +126,20 @@ void run_worker() {
   study::run_worker(STDIN_FILENO, out);
 }
 
+void report(const study::StudyFolder& folder) {
+  const study::Results results = study::read_results(study::read_study(folder), folder);
+  write_report(results, folder.report());
+  print_answer("the report is in " + (folder.report() / "report.md").string() + '\n');
+}
+
+void add_report(CLI::App& study) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = study.add_subcommand(
+      "report", "Write tables, CSV files and pictures of what was found into DIR/report");
+  command->add_option("DIR", *folder, "the study's folder")->required();
+  command->callback([folder] { report({*folder}); });
+}
+
 void add_run_arguments(CLI::App& command, StudyOptions& options) {
   command.add_option("SPEC", options.spec_file, "what is studied, a YAML file")->required();
   command.add_option("--out", options.folder, "the study's folder, made if need be")
@@ -156,6 +171,7 @@ void set_up_study(CLI::App& app) {
           WorkKind::query);
   add_run(*study, "reference", "Find the best view of every question, by exhaustive search",
           WorkKind::reference);
+  add_report(*study);
   study
       ->add_subcommand("worker",
                        "Answer units of work, a line each, from standard input to standard output")

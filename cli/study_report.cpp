@@ -9,6 +9,7 @@
 #include "cli/study_tables.hpp"
 #include "cli/study_text.hpp"
 #include "core/atomic_file.hpp"
+#include "core/folder.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -38,12 +39,6 @@ std::vector<File> make_files(const study::Results& results, const study::Evaluat
       {"cycle.png", cycle_plot(results, evaluation)}};
   if (evaluation.modes) files.emplace_back(kModesFile, to_csv(modes_table(*evaluation.modes)));
   return files;
-}
-
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string() + ": cannot be created: " + error.message());
 }
 
 }  // namespace

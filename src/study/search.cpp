@@ -1,11 +1,11 @@
 #include "study/search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
 #include <utility>
 
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/planner.hpp"
 #include "planner/edit_distance.hpp"
 #include "planner/field_value.hpp"
@@ -133,10 +133,10 @@ void check_settings(const Search& search, const std::vector<FieldSetting>& given
     throw InputError(place + ": " + key + " belongs to " + owner(part) + ", not to " +
                      search.solver);
   });
-  static const std::array<std::string, 2> kEvaluators{"exact", "paper-code"};
-  if (std::ranges::find(kEvaluators, search.evaluator) == kEvaluators.end()) {
+  const std::vector<std::string> evaluators = evaluator_names();
+  if (std::ranges::find(evaluators, search.evaluator) == evaluators.end()) {
     throw InputError(place + ": evaluator is '" + search.evaluator + "', did you mean '" +
-                     nearest_word(search.evaluator, kEvaluators) + "'?");
+                     nearest_word(search.evaluator, evaluators) + "'?");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/planner.hpp"
 #include "study/digest.hpp"
@@ -17,7 +18,7 @@
 namespace nbvopt::study {
 namespace {
 
-constexpr const char* kPaperCode = "paper-code";
+constexpr const char* kExact = "exact";
 constexpr std::array kModes{UncertaintyMode::distance, UncertaintyMode::angle,
                             UncertaintyMode::both};
 
@@ -62,7 +63,7 @@ class UnitRunner::Scene {
   Mast mast() const { return Mast(robot_.mast); }
 
   /// The exact gain, as this mode counts it.
-  const ViewEvaluator& exact(UncertaintyMode mode) { return *judge(mode, "exact").evaluator; }
+  const ViewEvaluator& exact(UncertaintyMode mode) { return *judge(mode, kExact).evaluator; }
   const Planner& planner(UncertaintyMode mode, const std::string& evaluator) {
     return judge(mode, evaluator).planner;
   }
@@ -80,13 +81,9 @@ class UnitRunner::Scene {
     if (known != judges_.end()) return known->second;
     Robot robot = robot_;
     robot.sensor.uncertainty_mode = mode;
-    std::shared_ptr<const ViewEvaluator> made;
-    if (evaluator == kPaperCode) {
-      robot.sensor = paper_code_sensor(robot.sensor);
-      made = make_paper_code_evaluator(map_, robot.sensor);
-    } else {
-      made = make_exact_evaluator(grid_, DepthCamera(robot.sensor));
-    }
+    robot.sensor = evaluator_sensor(evaluator, robot.sensor);
+    const std::shared_ptr<const ViewEvaluator> made =
+        make_evaluator(evaluator, map_, grid_, robot.sensor);
     return judges_.emplace(key, Judge{made, Planner(robot, grid_, made)}).first->second;
   }
 
@@ -142,7 +139,7 @@ Json UnitRunner::run(const WorkUnit& unit) {
 }
 
 Json UnitRunner::run_query(const WorkUnit& unit) {
-  const bool is_exact = unit.search.evaluator != kPaperCode;
+  const bool is_exact = unit.search.evaluator == kExact;
   const auto solver = make_(unit.search);
   const Planner& planner = scene_->planner(unit.mode, unit.search.evaluator);
   PlanRequest request = request_of(unit);
@@ -182,7 +179,7 @@ Json UnitRunner::run_query(const WorkUnit& unit) {
 
 Json UnitRunner::run_reference(const WorkUnit& unit) {
   const auto begin = StopRule::Clock::now();
-  const Planner& planner = scene_->planner(unit.mode, "exact");
+  const Planner& planner = scene_->planner(unit.mode, kExact);
   const PlanRequest request = request_of(unit);
   scene_->grid().make_ready(planner.reachable_voxels(request));
   const Mast mast = scene_->mast();
