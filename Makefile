@@ -6,7 +6,7 @@ NBVOPT := $(BUILD)/cli/nbvopt
 DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 0.5
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 # One of them needs what `make bench-search` wrote.
-NOTEBOOKS ?= 01_one_query 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
+NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search bench-server notebook \
@@ -54,7 +54,7 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 	@cmake --preset $(PRESET) --log-level=WARNING
 	@cmake --build --preset $(PRESET) --target nbvopt_cli nbvopt_bindings
 	@for name in $(NOTEBOOKS); do echo "$$name"; notebooks/run.sh $$name $(BUILD) out/notebooks || exit; done
-	@find out/notebooks -name '*.png' -exec cp {} docs/images \;
+	@find out/notebooks -maxdepth 1 -name '*.png' -exec cp {} docs/images \;
 	@test -f out/search_quality.jsonl || echo "search_quality is left out: run make bench-search first"
 
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers

@@ -41,7 +41,8 @@ std::string plural(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : noun.ends_with('h') ? "es" : "s");
 }
 
-std::string to_text(const study::Study& study, const study::WorkCount& work, WorkKind kind) {
+std::string to_text(const study::Study& study, const study::WorkCount& work, std::size_t to_run,
+                    WorkKind kind) {
   std::size_t starts = 0;
   for (const study::StudyMap& map : study.maps) starts += map.starts.size();
   std::string text = plural(study.maps.size(), "map") + ", " + plural(starts, "start") + ", " +
@@ -54,7 +55,7 @@ std::string to_text(const study::Study& study, const study::WorkCount& work, Wor
             ": " + plural(work.total, "unit") + '\n';
   }
   return text + std::to_string(work.done) + " done (" + std::to_string(work.failed) + " failed), " +
-         std::to_string(work.total - work.done) + " to run\n";
+         std::to_string(to_run) + " to run\n";
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -96,11 +97,11 @@ void run(const StudyOptions& options, WorkKind kind) {
   const study::Study& study = declared.study;
   const study::StudyFolder folder{options.folder};
   const study::WorkCount work = study::count_work(study, folder, kind);
-  print_answer(to_text(study, work, kind));
+  const std::size_t to_run = work.total - work.done + (options.retry_failed ? work.failed : 0);
+  print_answer(to_text(study, work, to_run, kind));
   if (options.dry_run) return;
 
   const study::RunOptions how = run_options(options);
-  const std::size_t to_run = work.total - work.done + (how.retry_failed ? work.failed : 0);
   Progress progress("study", static_cast<double>(to_run));
   double ended = 0.0;
   const auto on_end = [&](const study::Json& record) {

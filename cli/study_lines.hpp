@@ -1,7 +1,6 @@
 // Which solvers stand out in a picture of a study, and how.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -121,23 +121,15 @@ std::vector<double> mean_heights(const std::vector<Panel>& panels) {
   return heights;
 }
 
-/// The least and greatest cost of all, at least a decade apart.
-std::array<double, 2> cost_range(const std::vector<study::SolverProfiles>& profiles, Unit unit) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0.0;
-  for (const study::SolverProfiles& own : profiles) {
-    const std::vector<double>& costs = (own.*unit).costs;
-    if (costs.empty()) continue;
-    least = std::min(least, costs.front());
-    most = std::max(most, costs.back());
-  }
-  if (most == 0.0) least = most = 1.0;  // nobody reached anything
+/// Of all solvers, at least a decade apart.
+std::array<double, 2> decades(const std::vector<study::SolverProfiles>& profiles, Unit unit) {
+  const auto [least, most] = study::cost_range(profiles, unit);
   return {least, std::max(most, 10.0 * least)};
 }
 
 ChartAxis tau_axis(const std::vector<study::SolverProfiles>& profiles, Unit unit) {
   constexpr double kMost = 1000.0;
-  return log_axis(1.0, std::min(cost_range(profiles, unit)[1], kMost),
+  return log_axis(1.0, std::min(decades(profiles, unit)[1], kMost),
                   "cost over that of the cheapest solver");
 }
 
@@ -216,8 +208,8 @@ std::string performance_profile_plot(const Results& results, const Evaluation& e
 std::string data_profile_plot(const Results& results, const Evaluation& evaluation) {
   using study::SolverProfiles;
   const auto& profiles = evaluation.data;
-  const auto evaluations = cost_range(profiles, &SolverProfiles::evaluations);
-  const auto times_ms = cost_range(profiles, &SolverProfiles::time_ms);
+  const auto evaluations = decades(profiles, &SolverProfiles::evaluations);
+  const auto times_ms = decades(profiles, &SolverProfiles::time_ms);
   const std::string share = "share of runs and targets";
   std::vector<Panel> panels{
       profile_panel(profiles, &SolverProfiles::evaluations,
@@ -257,16 +249,16 @@ std::string budget_plot(const Results& results, const Evaluation& evaluation) {
 
 std::string cycle_plot(const Results& results, const Evaluation& evaluation) {
   std::vector<std::string> names;
-  double most = 0.0;
   for (const study::Cycle& row : evaluation.cycles) {
     if (row.solver == 0)
       names.push_back(row.motion_time_s > 0.0 ? format_number(row.motion_time_s) : "no limit");
-    for (const double rate : {row.gain_per_s_moving, row.gain_per_s_waiting}) {
-      if (std::isfinite(rate)) most = std::max(most, rate);
-    }
   }
-  if (most == 0.0) most = 1.0;
   const auto make_panel = [&](const std::string& heading, double study::Cycle::*figure) {
+    double most = 0.0;
+    for (const study::Cycle& row : evaluation.cycles) {
+      if (std::isfinite(row.*figure)) most = std::max(most, row.*figure);
+    }
+    if (most == 0.0) most = 1.0;
     Panel panel{.heading = heading,
                 .x_axis = name_axis(names, "motion time (s)"),
                 .y_axis = {.min = 0.0,
@@ -283,8 +275,9 @@ std::string cycle_plot(const Results& results, const Evaluation& evaluation) {
     return panel;
   };
   const std::vector<Panel> panels{
-      make_panel("Computing and the answer's motion", &study::Cycle::gain_per_s_moving),
-      make_panel("Computing and the whole motion time", &study::Cycle::gain_per_s_waiting)};
+      make_panel("By computing and the answer's motion", &study::Cycle::gain_per_s_moving),
+      make_panel("More than staying, by the whole motion time",
+                 &study::Cycle::added_per_s_waiting)};
   return page("Gain a second",
               "Exact gain of all runs with the loosest budget over the time of all", results,
               mean_heights(panels), panels);

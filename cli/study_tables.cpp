@@ -56,15 +56,7 @@ std::string budget_key(const study::Budget& budget) {
 std::vector<double> cost_grid(const std::vector<study::SolverProfiles>& profiles,
                               study::Profile study::SolverProfiles::*unit) {
   constexpr int kSteps = 100;
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0.0;
-  for (const study::SolverProfiles& own : profiles) {
-    const std::vector<double>& costs = (own.*unit).costs;
-    if (costs.empty()) continue;
-    least = std::min(least, costs.front());
-    most = std::max(most, costs.back());
-  }
-  if (most == 0.0) least = most = 1.0;  // nobody reached anything
+  const auto [least, most] = study::cost_range(profiles, unit);
   std::vector<double> grid;
   for (int i = 0; i < kSteps; ++i) {
     grid.push_back(least * std::pow(most / least, i / double{kSteps}));
@@ -187,12 +179,13 @@ TextTable cycle_table(const Results& results, const Evaluation& evaluation) {
                    {"mean_gain", ""},
                    {"mean_move_time_s", ""},
                    {"gain_per_s_moving_s_wall", ""},
-                   {"gain_per_s_waiting_s_wall", ""}},
+                   {"gain_per_s_waiting_s_wall", ""},
+                   {"added_per_s_waiting_s_wall", ""}},
                   {}};
   for (const study::Cycle& row : evaluation.cycles) {
     table.rows.push_back({results.solvers[row.solver], row.motion_time_s, number(row.runs),
                           row.mean_gain, row.mean_move_time_s, row.gain_per_s_moving,
-                          row.gain_per_s_waiting});
+                          row.gain_per_s_waiting, row.added_per_s_waiting});
   }
   return table;
 }
@@ -213,10 +206,12 @@ TextTable best_motion_time_table(const Results& results, const Evaluation& evalu
   TextTable table{{{"solver", ""},
                    {"map", ""},
                    {"best_motion_time_moving_s_wall", ""},
-                   {"best_motion_time_waiting_s_wall", ""}},
+                   {"best_motion_time_waiting_s_wall", ""},
+                   {"best_motion_time_adding_s_wall", ""}},
                   {}};
   for (const study::BestMotionTime& row : evaluation.best_motion_times) {
-    table.rows.push_back({results.solvers[row.solver], row.map, row.moving_s, row.waiting_s});
+    table.rows.push_back(
+        {results.solvers[row.solver], row.map, row.moving_s, row.waiting_s, row.adding_s});
   }
   return table;
 }
@@ -228,7 +223,8 @@ TextTable best_motion_time_overview(const Results& results, const Evaluation& ev
   TextTable table = solver_rows(results);
   for (const study::BestMotionTime& row : evaluation.best_motion_times) {
     if (row.solver == 0) table.columns.push_back({"", row.map});
-    table.rows[row.solver].emplace_back(label(row.moving_s) + ", " + label(row.waiting_s));
+    table.rows[row.solver].emplace_back(label(row.moving_s) + ", " + label(row.waiting_s) + ", " +
+                                        label(row.adding_s));
   }
   return table;
 }

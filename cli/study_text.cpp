@@ -112,8 +112,11 @@ std::string cycles(const Results& results, const Evaluation& evaluation) {
           "\nWaiting: the time is computing and the whole motion time, of a robot that waits for "
           "the end of the time that its joints have.\n\n" +
           to_markdown(cycle_overview(results, evaluation, &study::Cycle::gain_per_s_waiting)) +
-          "\nThe motion time with the greatest gain a second on each map: by moving, by "
-          "waiting.\n\n" +
+          "\nAdding: the same of what answers gain more than staying, which is what moving is "
+          "worth.\n\n" +
+          to_markdown(cycle_overview(results, evaluation, &study::Cycle::added_per_s_waiting)) +
+          "\nThe motion time with the greatest gain a second on each map: by moving, by waiting, "
+          "by adding.\n\n" +
           to_markdown(best_motion_time_overview(results, evaluation)) +
           "\n![Gain a second](cycle.png)\n");
 }
@@ -148,7 +151,8 @@ std::string caveats(const Results& results, const Evaluation& evaluation) {
   }
   if (const std::size_t failed = failed_runs(results); failed > 0) {
     lines.push_back(count(failed, "run", "runs") +
-                    " failed: no gain, at the cost that was recorded, which may be none.");
+                    " failed: no gain, at the time that was recorded, which is none where a worker "
+                    "ended, and no evaluations.");
   }
   if (const std::size_t unknown = cases_without_reference(results); unknown > 0) {
     lines.push_back(count(unknown, "case has", "cases have") +

@@ -25,6 +25,10 @@ case $name in
       --motion-time 1 --json-out "$out/answer.json" --trace "$out/trace.jsonl" \
       --landscape "$out/landscape.json" >/dev/null
     ;;
+  02_solver_study) # reads a report: the study of record's unless another is named
+    NBVOPT_STUDY_REPORT=$(realpath "${NBVOPT_STUDY_REPORT:-docs/study/searches}")
+    export NBVOPT_STUDY_REPORT
+    ;;
   03_surrogate) ;; # asks the module only
   search_quality)
     [ -f out/search_quality.jsonl ] ||

@@ -30,6 +30,10 @@ FileLock::FileLock(const std::filesystem::path& path, const char* use)
     throw InputError(name + ".lock: cannot be made: " + std::generic_category().message(errno));
   }
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) {
+      throw InputError(path_.string() +
+                       ": cannot be locked: " + std::generic_category().message(errno));
+    }
     throw InputError(name + ": another " + use + ", stop it or name another");
   }
 }

@@ -36,7 +36,7 @@ std::string store(const FieldValue& value, double& field) {
 std::string store(const FieldValue& value, std::int64_t& field) {
   constexpr double kMostExact = 0x1p53;
   const auto* number = std::get_if<double>(&value);
-  if (number == nullptr || *number != std::floor(*number) || std::abs(*number) > kMostExact) {
+  if (number == nullptr || *number != std::floor(*number) || std::abs(*number) >= kMostExact) {
     return "a whole number";
   }
   field = static_cast<std::int64_t>(*number);

@@ -19,8 +19,9 @@ struct CoordinatorOptions {
 
 /// How a unit ended.
 struct WorkOutcome {
-  Json answer;          ///< null when it failed
-  std::string failure;  ///< why; empty otherwise
+  Json answer;           ///< null when it failed
+  std::string failure;   ///< why; empty otherwise
+  double busy_ms = 0.0;  ///< that it took; 0 where its worker ended
 };
 
 /// How all of them ended.

@@ -18,6 +18,7 @@ struct Sums {
   std::size_t runs = 0;
   std::size_t answers = 0;
   double gain = 0.0;
+  double added = 0.0;  ///< more than staying gains
   double move_time_s = 0.0;
   double moving_s = 0.0;   ///< computing and moving
   double waiting_s = 0.0;  ///< computing and waiting for the end of the motion time
@@ -32,19 +33,22 @@ struct Sums {
     }
     ++answers;
     gain += run.gain;
+    added += run.gain - run.current_gain;
     move_time_s += run.move_time_s;
     moving_s += search_s + run.move_time_s;
   }
 
   Cycle cycle(std::size_t solver, double motion_time_s) const {
-    const auto per_s = [&](double time_s) { return time_s > 0.0 ? gain / time_s : kNaN; };
+    const auto rate = [](double sum, double time_s) { return time_s > 0.0 ? sum / time_s : kNaN; };
+    const double slots_s = motion_time_s > 0.0 ? waiting_s : kNaN;
     return {.solver = solver,
             .motion_time_s = motion_time_s,
             .runs = runs,
             .mean_gain = gain / static_cast<double>(runs),
             .mean_move_time_s = move_time_s / static_cast<double>(answers),
-            .gain_per_s_moving = per_s(moving_s),
-            .gain_per_s_waiting = motion_time_s > 0.0 ? per_s(waiting_s) : kNaN};
+            .gain_per_s_moving = rate(gain, moving_s),
+            .gain_per_s_waiting = rate(gain, slots_s),
+            .added_per_s_waiting = rate(added, slots_s)};
   }
 };
 
@@ -106,7 +110,8 @@ std::vector<BestMotionTime> best_motion_times(const Results& results) {
       rows.push_back({.solver = solver,
                       .map = map,
                       .moving_s = best_of(own, &Cycle::gain_per_s_moving),
-                      .waiting_s = best_of(own, &Cycle::gain_per_s_waiting)});
+                      .waiting_s = best_of(own, &Cycle::gain_per_s_waiting),
+                      .adding_s = best_of(own, &Cycle::added_per_s_waiting)});
     }
   }
   return rows;

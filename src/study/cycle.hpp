@@ -24,18 +24,22 @@ struct Cycle {
   /// Gain over computing and the whole motion time: of a robot that waits for the end of the slot.
   /// NaN where the motion time is 0, which has no end.
   double gain_per_s_waiting = 0.0;
+  /// The same of what answers gain more than staying: what moving is worth. A first look from a
+  /// new place gains much wherever the camera looks, and short motion times have many of them.
+  double added_per_s_waiting = 0.0;
 };
 
 /// A row for every solver and motion time, in this order, motion times ascending.
 std::vector<Cycle> cycles(const Results& results);
 
-/// The motion time with the greatest gain a second in a map, in the two meanings of Cycle; the
-/// shortest of equal ones. NaN where there is none.
+/// The motion time with the greatest gain a second in a map, in the three meanings of Cycle;
+/// the shortest of equal ones. NaN where there is none.
 struct BestMotionTime {
   std::size_t solver = 0;
   std::string map;
   double moving_s = 0.0;
   double waiting_s = 0.0;
+  double adding_s = 0.0;
 };
 
 /// A row for every solver and map, in this order, maps in the order of the cases.

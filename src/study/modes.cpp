@@ -1,6 +1,7 @@
 #include "study/modes.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -56,7 +57,8 @@ std::optional<ModeTable> compare_modes(const Results& results) {
         gain += by_mode[chosen]->gain_by_mode[judged];
         own_gain += by_mode[judged]->gain_by_mode[judged];
       }
-      table.ratio[chosen][judged] = gain / own_gain;
+      table.ratio[chosen][judged] =
+          own_gain > 0.0 ? gain / own_gain : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return table;

@@ -114,4 +114,18 @@ std::vector<SolverProfiles> data_profiles(const Results& results,
   return all;
 }
 
+std::array<double, 2> cost_range(const std::vector<SolverProfiles>& profiles,
+                                 Profile SolverProfiles::*unit) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const SolverProfiles& own : profiles) {
+    const std::vector<double>& costs = (own.*unit).costs;
+    if (costs.empty()) continue;
+    least = std::min(least, costs.front());
+    most = std::max(most, costs.back());
+  }
+  if (most == 0.0) return {1.0, 1.0};
+  return {least, most};
+}
+
 }  // namespace nbvopt::study

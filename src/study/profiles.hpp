@@ -1,6 +1,7 @@
 // How many questions a solver has answered within a cost.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -37,5 +38,10 @@ std::vector<double> data_profile_targets();
 /// target, and the cost is that of cost_to_reach(). One entry a solver.
 std::vector<SolverProfiles> data_profiles(const Results& results,
                                           const std::vector<double>& targets);
+
+/// The least and the greatest cost of all solvers in one of the two units; 1 and 1 where nobody
+/// reached anything.
+std::array<double, 2> cost_range(const std::vector<SolverProfiles>& profiles,
+                                 Profile SolverProfiles::*unit);
 
 }  // namespace nbvopt::study

@@ -1,10 +1,10 @@
 #include "study/record.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "nbvopt/core/error.hpp"
 #include "study/record_file.hpp"
 
 namespace nbvopt::study {
@@ -26,6 +26,7 @@ void add_outcome(Json& record, const WorkOutcome& outcome) {
     record.update(outcome.answer);
   } else {
     record["failure"] = outcome.failure;
+    record["times"] = {{"search_ms", outcome.busy_ms}};
   }
 }
 
@@ -50,8 +51,8 @@ Run run_of(const Json& record, const UnitIndex& unit, std::uint64_t seed) {
   run.budget = unit.budget;
   run.seed = seed;
   run.failure = record.value("failure", "");
+  run.search_time_ms = record.at("times").at("search_ms").get<double>();
   if (run.has_failed()) return run;
-  run.status = record.at("status").get<std::string>();
   run.gain = record.at("gain").get<double>();
   run.current_gain = record.at("current_gain").get<double>();
   const Json& by_mode = record.at("gain_by_mode");
@@ -60,7 +61,6 @@ Run run_of(const Json& record, const UnitIndex& unit, std::uint64_t seed) {
   run.evaluations = record.at("evaluations").get<std::int64_t>();
   run.surrogate_evaluations = record.at("surrogate_evaluations").get<std::int64_t>();
   run.move_time_s = record.at("move_time_s").get<double>();
-  run.search_time_ms = record.at("times").at("search_ms").get<double>();
   run.progress = progress_of(record);
   return run;
 }
@@ -127,6 +127,10 @@ Json reference_record(const Study& study, std::size_t case_index, Fingerprints& 
 }
 
 std::string record_id(const Json& record) {
+  if (record.at("schema") != kRecordVersion) {
+    throw InputError("a record has schema " + record.at("schema").dump() + ", this program reads " +
+                     std::to_string(kRecordVersion));
+  }
   return record.at(record.contains("unit") ? "unit" : "case").get<std::string>();
 }
 

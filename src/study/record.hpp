@@ -15,7 +15,7 @@ Json query_record(const Study& study, const UnitIndex& unit, Fingerprints& finge
 Json reference_record(const Study& study, std::size_t case_index, Fingerprints& fingerprints,
                       const WorkOutcome& outcome);
 
-/// The unit's fingerprint, or the case's.
+/// The unit's fingerprint, or the case's. Throws InputError for a record of another schema.
 std::string record_id(const Json& record);
 
 /// Reads what a study's folder holds. Records of units that the study does not have are passed

@@ -47,6 +47,8 @@ void for_each_record(const std::filesystem::path& path,
     } catch (const Json::exception& error) {
       throw InputError(path.string() + ": line " + std::to_string(number) +
                        ": is no record: " + error.what());
+    } catch (const InputError& error) {
+      throw InputError(path.string() + ": line " + std::to_string(number) + ": " + error.what());
     }
   }
   if (in.bad() || !in.eof()) throw InputError(path.string() + ": cannot be read");

@@ -20,7 +20,21 @@ const Vector kFirstSteps{0.1, 0.1, 0.06};
 const Vector kLastSteps{5e-4, 5e-4, 5e-4};
 constexpr int kMostLevels = 5;
 constexpr std::size_t kSummits = 24;
-constexpr int kDraws = 400;
+constexpr std::size_t kDrawnAround = 6;
+constexpr int kDraws = 1000;
+
+/// The 26 ways from a point of a lattice to those around it.
+const std::vector<Indices> kNeighbours = [] {
+  std::vector<Indices> steps;
+  for (const Eigen::Index i : {-1, 0, 1}) {
+    for (const Eigen::Index j : {-1, 0, 1}) {
+      for (const Eigen::Index k : {-1, 0, 1}) {
+        if (i != 0 || j != 0 || k != 0) steps.push_back({i, j, k});
+      }
+    }
+  }
+  return steps;
+}();
 
 struct Candidate {
   Vector q = Vector::Zero();
@@ -72,17 +86,22 @@ class Lattice3 {
     return q;
   }
 
-  /// Whether no neighbour along a joint has more.
+  /// Whether none of the 26 neighbours has more, nor as much with a smaller number: a plateau is
+  /// one summit. Along joints alone every point of a slanting ridge would be one.
   bool is_summit(std::size_t number, const std::vector<double>& gains) const {
     const Indices at = indices(number);
-    Eigen::Index stride = 1;
-    for (const Eigen::Index i : {2, 1, 0}) {
-      const auto here = static_cast<Eigen::Index>(number);
-      const double gain = gains[number];
-      if (at[i] > 0 && gains[static_cast<std::size_t>(here - stride)] > gain) return false;
-      if (at[i] + 1 < points_[i] && gains[static_cast<std::size_t>(here + stride)] > gain)
-        return false;
-      stride *= points_[i];
+    for (const Indices& step : kNeighbours) {
+      Eigen::Index neighbour = 0;
+      bool is_inside = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Index there = at[i] + step[i];
+        is_inside = is_inside && there >= 0 && there < points_[i];
+        neighbour = neighbour * points_[i] + there;
+      }
+      if (!is_inside) continue;
+      const auto other = static_cast<std::size_t>(neighbour);
+      if (gains[other] > gains[number]) return false;
+      if (gains[other] == gains[number] && other < number) return false;
     }
     return true;
   }
@@ -111,27 +130,28 @@ std::vector<Candidate> summits(GainOverBox& gain, const Lattice3& lattice) {
   return found;
 }
 
-/// Steps along one joint at a time, halved when none goes up.
+/// Steps along joints and diagonals, halved when none goes up.
 Candidate climb(GainOverBox& gain, Candidate best, Vector steps) {
   while ((steps.array() > kLastSteps.array()).any()) {
     const double before = best.gain;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (steps[i] == 0.0) continue;
-      for (const double sign : {1.0, -1.0}) {
-        const Candidate next = gain.at(best.q + sign * steps[i] * Vector::Unit(i));
-        if (next.gain > best.gain) best = next;
-      }
+    for (const Indices& way : kNeighbours) {
+      const Vector offset = steps.cwiseProduct(Vector(
+          static_cast<double>(way[0]), static_cast<double>(way[1]), static_cast<double>(way[2])));
+      if (offset.isZero(0.0)) continue;
+      const Candidate next = gain.at(best.q + offset);
+      if (next.gain > best.gain) best = next;
     }
     if (best.gain == before) steps *= 0.5;
   }
   return best;
 }
 
-/// Tries points around the best, at distances of all scales up to the lattice's steps.
+/// Tries points around the best, at distances of all scales up to twice the lattice's steps.
 Candidate draw_around(GainOverBox& gain, Candidate best, const Vector& steps) {
+  if (steps.isZero(0.0)) return best;
   std::mt19937_64 generator(1);
   for (int i = 0; i < kDraws; ++i) {
-    const double scale = std::pow(2.0, -8.0 * uniform(generator));
+    const double scale = std::pow(2.0, 1.0 - 9.0 * uniform(generator));
     Vector offset;
     for (Eigen::Index joint = 0; joint < 3; ++joint) {
       offset[joint] = scale * steps[joint] * (2.0 * uniform(generator) - 1.0);
@@ -143,12 +163,18 @@ Candidate draw_around(GainOverBox& gain, Candidate best, const Vector& steps) {
 }
 
 Candidate search_level(GainOverBox& gain, const Lattice3& lattice) {
-  Candidate best;
+  std::vector<Candidate> climbed;
   for (const Candidate& summit : summits(gain, lattice)) {
-    const Candidate climbed = climb(gain, summit, 0.5 * lattice.steps());
-    if (climbed.gain > best.gain) best = climbed;
+    climbed.push_back(climb(gain, summit, 0.5 * lattice.steps()));
   }
-  return draw_around(gain, best, lattice.steps());
+  std::ranges::stable_sort(climbed, std::greater(), &Candidate::gain);
+  climbed.resize(std::min(climbed.size(), kDrawnAround));
+  Candidate best;
+  for (const Candidate& candidate : climbed) {
+    const Candidate drawn = draw_around(gain, candidate, lattice.steps());
+    if (drawn.gain > best.gain) best = drawn;
+  }
+  return best;
 }
 
 bool agree(double a, double b) { return std::abs(a - b) <= kReferenceAgreement * std::max(a, b); }
@@ -164,8 +190,9 @@ Reference find_reference(const ViewEvaluator& evaluator, const MovingMast& mast,
     const Lattice3 lattice(box, kFirstSteps * std::pow(std::numbers::sqrt2, -level));
     const std::int64_t before = gain.evaluations();
     const Candidate found = search_level(gain, lattice);
+    // With the best of all: a level that falls behind it confirms nothing.
+    reference.has_agreed = level > 0 && agree(found.gain, best.gain);
     if (found.gain > best.gain) best = found;
-    reference.has_agreed = level > 0 && agree(found.gain, reference.levels.back().gain);
     reference.levels.push_back({lattice.steps(), gain.evaluations() - before, found.gain});
   }
   reference.gain = best.gain;

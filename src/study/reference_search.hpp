@@ -20,7 +20,7 @@ struct Reference {
   double gain = 0.0;
   JointPosition joints;
   std::int64_t evaluations = 0;
-  bool has_agreed = false;  ///< whether the last two levels agree
+  bool has_agreed = false;  ///< whether the last level agrees with the best before
   std::vector<ReferenceLevel> levels;
 };
 
@@ -29,9 +29,10 @@ struct Reference {
 inline constexpr double kReferenceAgreement = 1e-3;
 
 /// Maximises the exact gain over the box: each level evaluates every point of a lattice over the
-/// box, its faces included, climbs from its highest summits by ever smaller steps along the joints,
-/// then by steps drawn around the best. Levels, each with twice the square root of two as many
-/// points, follow one another until two agree, or five have been searched. Deterministic.
+/// box, its faces included, climbs from its highest summits by ever smaller steps, and then by
+/// steps drawn around the best four. Levels, each with twice the square root of two as many points,
+/// follow one another until one agrees with the best before, or five have been searched.
+/// Deterministic.
 Reference find_reference(const ViewEvaluator& evaluator, const MovingMast& mast,
                          const JointBox& box);
 

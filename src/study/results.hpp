@@ -45,7 +45,6 @@ struct Run {
   std::size_t budget = 0;
   std::uint64_t seed = 0;
   std::string failure;        ///< why there is no answer; empty: there is one, below
-  std::string status;         ///< such as "optimal_within_tolerance"
   double gain = 0.0;          ///< exact, of the answer
   double current_gain = 0.0;  ///< exact, of staying
   /// The exact gain of the answer's view in each uncertainty mode: distance, angle, both.

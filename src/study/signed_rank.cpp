@@ -29,12 +29,12 @@ Ranks midranks(const std::vector<double>& sizes) {
   return ranks;
 }
 
-/// The probability of a rank sum of the positive ones up to `sum`, of n pairs without ties: each
-/// rank is positive or not with equal chances.
-double probability_up_to(std::size_t sum, std::size_t n) {
-  std::vector<double> probability(n * (n + 1) / 2 + 1, 0.0);
+/// The probability of a sum of the positive ones up to `sum`, each of these ranks being positive or
+/// not with equal chances. Ranks and sum are doubled: midranks of ties are halves.
+double probability_up_to(std::size_t sum, const std::vector<std::size_t>& doubled_ranks) {
+  std::vector<double> probability(doubled_ranks.size() * (doubled_ranks.size() + 1) + 1, 0.0);
   probability[0] = 1.0;
-  for (std::size_t rank = 1; rank <= n; ++rank) {
+  for (const std::size_t rank : doubled_ranks) {
     for (std::size_t i = probability.size(); i-- > 0;) {
       const double with = i >= rank ? probability[i - rank] : 0.0;
       probability[i] = 0.5 * (probability[i] + with);
@@ -45,9 +45,11 @@ double probability_up_to(std::size_t sum, std::size_t n) {
   return total;
 }
 
-double exact_p(double lesser_rank_sum, std::size_t pairs) {
-  const auto sum = static_cast<std::size_t>(lesser_rank_sum);
-  return std::min(1.0, 2.0 * probability_up_to(sum, pairs));
+double exact_p(double lesser_rank_sum, const std::vector<double>& ranks) {
+  std::vector<std::size_t> doubled_ranks;
+  for (const double rank : ranks) doubled_ranks.push_back(static_cast<std::size_t>(2.0 * rank));
+  const auto sum = static_cast<std::size_t>(2.0 * lesser_rank_sum);
+  return std::min(1.0, 2.0 * probability_up_to(sum, doubled_ranks));
 }
 
 double approximate_p(double lesser_rank_sum, std::size_t pairs, double tie_correction) {
@@ -77,8 +79,8 @@ SignedRankTest signed_rank_test(const std::vector<double>& differences) {
     (ordered[i] > 0.0 ? test.rank_sum_above : test.rank_sum_below) += ranks.rank[i];
   }
   const double lesser = std::min(test.rank_sum_above, test.rank_sum_below);
-  test.is_exact = test.pairs <= kMostExactPairs && ranks.tie_correction == 0.0;
-  test.p = test.is_exact ? exact_p(lesser, test.pairs)
+  test.is_exact = test.pairs <= kMostExactPairs;
+  test.p = test.is_exact ? exact_p(lesser, ranks.rank)
                          : approximate_p(lesser, test.pairs, ranks.tie_correction);
   test.rank_biserial =
       (test.rank_sum_above - test.rank_sum_below) / (test.rank_sum_above + test.rank_sum_below);

@@ -19,8 +19,8 @@ struct SignedRankTest {
 };
 
 /// Whether differences of pairs are symmetric about 0. Differences up to 1e-9 are none, and those
-/// whose sizes differ by no more share their ranks: numerical noise. Up to 50 pairs without ties
-/// the distribution is exact; else the normal approximation, corrected for ties, not for
+/// whose sizes differ by no more share their ranks: numerical noise. Up to 50 pairs the
+/// distribution is exact; else the normal approximation, corrected for ties, not for
 /// continuity.
 SignedRankTest signed_rank_test(const std::vector<double>& differences);
 

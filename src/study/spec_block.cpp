@@ -34,9 +34,12 @@ std::vector<SpecValue> SpecValue::elements() const {
   return result;
 }
 
-FieldValue SpecValue::scalar() const {
+FieldValue SpecValue::finite_scalar() const {
   if (!node.IsScalar()) refuse("must be a single value");
-  return field_value(node, place());
+  FieldValue value = field_value(node, place());
+  const auto* number = std::get_if<double>(&value);
+  if (number != nullptr && !std::isfinite(*number)) refuse("is " + to_text(value) + ", not finite");
+  return value;
 }
 
 std::string SpecValue::text() const {
@@ -45,16 +48,16 @@ std::string SpecValue::text() const {
 }
 
 double SpecValue::number() const {
-  const FieldValue value = scalar();
+  const FieldValue value = finite_scalar();
   const auto* number = std::get_if<double>(&value);
-  if (number == nullptr || !std::isfinite(*number)) {
+  if (number == nullptr) {
     refuse("is " + to_text(value) + ", it must be a number");
   }
   return *number;
 }
 
 std::int64_t SpecValue::whole_number(std::int64_t least) const {
-  const FieldValue value = scalar();
+  const FieldValue value = finite_scalar();
   std::int64_t number = 0;
   if (!store(value, number).empty() || number < least) {
     refuse("is " + to_text(value) + ", it must be a whole number, at least " +

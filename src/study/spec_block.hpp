@@ -30,7 +30,7 @@ struct SpecValue {
   std::string text() const;
   double number() const;
   std::int64_t whole_number(std::int64_t least) const;
-  FieldValue scalar() const;
+  FieldValue finite_scalar() const;
 };
 
 /// The lines "key: value" of a map.

@@ -10,8 +10,6 @@
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
-#include "planner/edit_distance.hpp"
-#include "planner/field_table.hpp"
 #include "planner/yaml_value.hpp"
 #include "study/digest.hpp"
 #include "study/spec_block.hpp"
@@ -23,12 +21,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLongest_s = 1e6;              ///< of time limits
+constexpr std::size_t kMostStarts = 1'000'000;  ///< in a map
+
 /// The files that a pattern stands for, in alphabetical order; none when there are none.
 std::vector<fs::path> matching_files(const fs::path& pattern) {
+  if (fs::exists(pattern)) return {pattern};  // its name may hold a bracket
   glob_t found{};
   const std::unique_ptr<glob_t, void (*)(glob_t*)> guard(&found, ::globfree);
   if (::glob(pattern.c_str(), 0, nullptr, &found) != 0) return {};
   return {found.gl_pathv, found.gl_pathv + found.gl_pathc};
+}
+
+/// Reads something that the spec names; its faults are then those of this place.
+template <class Read>
+auto in_place(const SpecValue& value, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(value.place() + ": " + error.what());
+  }
 }
 
 class SpecReader {
@@ -58,7 +70,8 @@ class SpecReader {
   void read_maps();
   void add_maps(const SpecValue& pattern, bool is_optional);
   void read_starts();
-  void sample_starts_of(StudyMap& map, const SpecValue& sampled) const;
+  void sample_starts_of(StudyMap& map, const UncertaintyMap& content,
+                        const SpecValue& sampled) const;
   void list_starts(const SpecValue& listed);
 
   fs::path path_;
@@ -78,8 +91,9 @@ void append_once(std::vector<Value>& values, const Value& value, const SpecValue
 void SpecReader::read_lists() {
   study().name = path_.stem().string();
   if (const auto name = spec_.find("study")) study().name = name->text();
-  if (const auto robot = spec_.find("robot"))
-    study().robot = read_robot(beside_spec(robot->text()));
+  if (const auto robot = spec_.find("robot")) {
+    study().robot = in_place(*robot, [&] { return read_robot(beside_spec(robot->text())); });
+  }
   study().searches = read_searches(spec_.require("solvers"), make_);
   add_paper_searches(study().searches);
   for (const SpecValue& time : spec_.require("motion_times_s").elements()) {
@@ -126,7 +140,10 @@ void SpecReader::read_budgets() {
   if (const auto limits = block.find("time_limits_ms")) {
     for (const SpecValue& limit : limits->elements()) {
       const double limit_ms = limit.number();
-      if (limit_ms <= 0.0) limit.refuse("is " + format_number(limit_ms) + ", it must be above 0");
+      if (limit_ms <= 0.0 || limit_ms > 1e3 * kLongest_s) {
+        limit.refuse("is " + format_number(limit_ms) + ", it must be above 0, at most " +
+                     format_number(1e3 * kLongest_s));
+      }
       append_once(study().budgets, Budget{.time_limit_ms = limit_ms}, limit);
     }
   }
@@ -142,7 +159,6 @@ void SpecReader::read_budgets() {
 void SpecReader::read_timeout(const char* key, double& timeout_s) const {
   const auto value = spec_.find(key);
   if (!value) return;
-  constexpr double kLongest_s = 1e6;
   timeout_s = value->number();
   if (timeout_s <= 0.0 || timeout_s > kLongest_s) {
     value->refuse("is " + format_number(timeout_s) + " s, it must be above 0, at most " +
@@ -175,7 +191,12 @@ void SpecReader::add_maps(const SpecValue& pattern, bool is_optional) {
     if (std::ranges::find(study().maps, name, &StudyMap::name) != study().maps.end()) {
       pattern.refuse("names a second map called " + name + ", rename one");
     }
-    study().maps.push_back({name, file, file_digest(file), {}});
+    const std::string content = file_digest(file);
+    const auto twin = std::ranges::find(study().maps, content, &StudyMap::digest);
+    if (twin != study().maps.end()) {
+      pattern.refuse("names " + name + ", which is the same map as " + twin->name + ", keep one");
+    }
+    study().maps.push_back({name, file, content, {}});
   }
 }
 
@@ -185,17 +206,23 @@ void SpecReader::read_starts() {
   const auto sampled = block.find("sampled");
   const auto listed = block.find("listed");
   if (!sampled == !listed) starts.refuse("must hold either sampled or listed");
-  if (listed) return list_starts(*listed);
-  for (StudyMap& map : study().maps) sample_starts_of(map, *sampled);
+  if (listed) list_starts(*listed);
+  for (StudyMap& map : study().maps) {
+    const UncertaintyMap content = in_place(starts, [&] { return read_map(map.file); });
+    if (sampled) sample_starts_of(map, content, *sampled);
+  }
 }
 
-void SpecReader::sample_starts_of(StudyMap& map, const SpecValue& sampled) const {
+void SpecReader::sample_starts_of(StudyMap& map, const UncertaintyMap& content,
+                                  const SpecValue& sampled) const {
   const SpecBlock block(sampled, {"count", "seed", "base_z_m"});
-  const auto count = static_cast<std::size_t>(block.require("count").whole_number(1));
+  const SpecValue number = block.require("count");
+  const auto count = static_cast<std::size_t>(number.whole_number(1));
+  if (count > kMostStarts) number.refuse("is more than " + std::to_string(kMostStarts));
   const auto seed = block.find("seed") ? block.find("seed")->whole_number(0) : 1;
   const double base_z_m = block.find("base_z_m") ? block.find("base_z_m")->number() : 0.0;
-  const auto starts = sample_starts(read_map(map.file), Mast(result_.study.robot.mast), base_z_m,
-                                    count, static_cast<std::uint64_t>(seed));
+  const auto starts = sample_starts(content, Mast(result_.study.robot.mast), base_z_m, count,
+                                    static_cast<std::uint64_t>(seed));
   if (!starts) {
     sampled.refuse("finds no free space in " + map.name + " for a camera on a base at z = " +
                    format_number(base_z_m) + " m, set base_z_m to its floor");
@@ -221,16 +248,12 @@ void SpecReader::list_starts(const SpecValue& listed) {
                 .yaw_rad = numbers.back().number(),
                 .joints = {joint("pan", 0.0), joint("tilt", 0.0),
                            joint("height", mast.options().height_min_m)}};
-    try {
-      start.joints = mast.clamped(start.joints, result_.remarks);
-    } catch (const InputError& error) {
-      throw InputError(entry.place() + ": " + error.what());
-    }
+    start.joints = in_place(entry, [&] { return mast.clamped(start.joints, result_.remarks); });
     const auto of_map = block.find("map");
     bool is_placed = false;
     for (StudyMap& map : study().maps) {
       if (of_map && map.name != of_map->text()) continue;
-      map.starts.push_back(start);
+      append_once(map.starts, start, entry);
       is_placed = true;
     }
     if (!is_placed)

@@ -87,7 +87,7 @@ std::vector<Settings> product(const std::vector<Parameter>& parameters) {
     for (const Settings& settings : combinations) {
       for (const SpecValue& value : parameter.values) {
         longer.push_back(settings);
-        longer.back().push_back({parameter.key, value.scalar()});
+        longer.back().push_back({parameter.key, value.finite_scalar()});
       }
     }
     combinations = std::move(longer);
@@ -130,6 +130,10 @@ void add_searches(const SpecValue& entry, const SolverFactory& make,
     const std::string label = label_of(name, search, settings, parameters);
     if (std::ranges::find(searches, label, &NamedSearch::label) != searches.end()) {
       entry.refuse("would make a second search named '" + label + "', give it another name");
+    }
+    const auto twin = std::ranges::find(searches, search, &NamedSearch::search);
+    if (twin != searches.end()) {
+      entry.refuse("would make '" + label + "' the same search as '" + twin->label + "', keep one");
     }
     searches.push_back({label, search});
   }

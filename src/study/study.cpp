@@ -1,5 +1,6 @@
 #include "study/study.hpp"
 
+#include "nbvopt/core/version.hpp"
 #include "study/digest.hpp"
 #include "study/unit_message.hpp"
 
@@ -53,7 +54,7 @@ UnitIndex unit_at(const Study& study, std::size_t index) {
 }
 
 Fingerprints::Fingerprints(const Study& study)
-    : study_(study), robot_(digest(to_yaml(study.robot))) {}
+    : study_(study), robot_(digest(version() + to_yaml(study.robot))) {}
 
 const std::string& Fingerprints::of_case(std::size_t case_index) {
   if (last_case_ == case_index) return last_;

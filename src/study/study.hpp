@@ -75,9 +75,9 @@ std::size_t unit_count(const Study& study);
 CaseIndex case_at(const Study& study, std::size_t index);
 UnitIndex unit_at(const Study& study, std::size_t index);
 
-/// Fingerprints of everything that decides the answer: the contents of map and robot, start, motion
-/// time and mode of a case; besides, search, budget and seed of a unit. They do not depend on where
-/// files lie, nor on what else is studied.
+/// Fingerprints of everything that decides the answer: this program's version, the contents of map
+/// and robot, start, motion time and mode of a case; besides, search, budget and seed of a unit.
+/// They do not depend on where files lie, nor on what else is studied.
 class Fingerprints {
  public:
   /// The study must outlive it.
@@ -88,7 +88,7 @@ class Fingerprints {
 
  private:
   const Study& study_;
-  std::string robot_;
+  std::string robot_;                     ///< and the version
   std::optional<std::size_t> last_case_;  ///< units of a case are asked for one after the other
   std::string last_;
 };

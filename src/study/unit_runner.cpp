@@ -52,7 +52,7 @@ class UnitRunner::Scene {
         grid_(VoxelGrid::lazy(map_)) {}
 
   bool is_of(const WorkUnit& unit) const {
-    return unit.map == map_file_ && unit.robot == robot_file_;
+    return unit.map == map_file_ && unit.map_digest == map_digest_ && unit.robot == robot_file_;
   }
   void check_digest(const WorkUnit& unit) const {
     if (unit.map_digest == map_digest_) return;

@@ -55,21 +55,20 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const sigs
 }
 
 WorkerProcess::~WorkerProcess() {
-  if (has_ended_) return;
-  kill();
-  ::waitpid(pid_, nullptr, 0);
+  if (!has_ended_) end();
 }
 
-bool WorkerProcess::send(const std::string& line) {
+void WorkerProcess::send(const std::string& line) {
   try {
     write_line(to_.get(), line);
-    return true;
   } catch (const std::system_error&) {
-    return false;
+    // It has ended.
   }
 }
 
-std::string WorkerProcess::wait_for_end() {
+std::string WorkerProcess::end() {
+  // One that is on its way out by itself keeps the status that it has.
+  ::kill(-pid_, SIGKILL);
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

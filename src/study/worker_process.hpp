@@ -27,13 +27,11 @@ class WorkerProcess {
   int descriptor() const { return from_.get(); }
   LineReader& lines() { return lines_; }
 
-  /// False when it has ended.
-  bool send(const std::string& line);
+  /// One that has ended does not get the line; its line out has then ended, too.
+  void send(const std::string& line);
 
-  void kill() const { ::kill(pid_, SIGKILL); }
-
-  /// Waits for the end of a process that has closed its line out or was killed; says how it ended.
-  std::string wait_for_end();
+  /// Kills it and what it has started, unless it has ended by itself; says how it ended.
+  std::string end();
 
  private:
   pid_t pid_ = -1;

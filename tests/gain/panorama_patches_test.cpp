@@ -154,9 +154,9 @@ TEST_F(PanoramaResiduals, AreThereOfPanoramasPerRayOnly) {
   EXPECT_TRUE(objective_.has_residuals());
   SensorOptions by_voxel = world_.sensor;
   by_voxel.counting = Counting::per_voxel;
-  EXPECT_FALSE(
-      PanoramaObjective(world_.grid, by_voxel, mast_, world_.box,
-                                 planning_panorama(by_voxel.counting), nullptr).has_residuals());
+  EXPECT_FALSE(PanoramaObjective(world_.grid, by_voxel, mast_, world_.box,
+                                 planning_panorama(by_voxel.counting), nullptr)
+                   .has_residuals());
 }
 
 }  // namespace

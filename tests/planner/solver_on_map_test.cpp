@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/planner.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/solver/registry.hpp"
-#include "nbvopt/planner/planner.hpp"
 #include "planner/panorama_objective.hpp"
 #include "planner/view_objective.hpp"
 
@@ -26,8 +26,8 @@ struct OfficeQuery {
   JointBox box = mast.mast().reachable_box(joints, 1.0);
   std::unique_ptr<const ViewEvaluator> exact =
       make_exact_evaluator(grid, DepthCamera(robot.sensor));
-  PanoramaObjective surrogate{grid, robot.sensor, mast, box,
-                              planning_panorama(robot.sensor.counting), nullptr};
+  PanoramaObjective surrogate{
+      grid, robot.sensor, mast, box, planning_panorama(robot.sensor.counting), nullptr};
   ViewObjective gain{mast, robot.sensor, box, *exact, &surrogate, nullptr};
 
   /// What the solver can work on: the exact gain, or the surrogate where it needs more.

@@ -22,6 +22,7 @@ Results results_of_two_maps() {
 Run run_of(std::size_t case_index, double gain, double move_time_s) {
   auto run = made_run({.case_index = case_index, .gain = gain, .time_ms = 500.0});
   run.move_time_s = move_time_s;
+  run.current_gain = 30.0;
   return run;
 }
 
@@ -41,6 +42,7 @@ TEST(Cycle, IsGainOverMotionAndComputing) {
   EXPECT_EQ(rows[1].mean_move_time_s, 1.0);
   EXPECT_EQ(rows[1].gain_per_s_moving, 30.0);
   EXPECT_EQ(rows[1].gain_per_s_waiting, 30.0);
+  EXPECT_EQ(rows[1].added_per_s_waiting, 20.0);
   EXPECT_EQ(rows[2].mean_gain, 200.0);
   EXPECT_DOUBLE_EQ(rows[2].gain_per_s_moving, 400.0 / 3.5) << "of all, not a mean of quotients";
   EXPECT_EQ(rows[2].gain_per_s_waiting, 80.0);
@@ -59,6 +61,7 @@ TEST(BestMotionTime, HasTheGreatestRateOfEachMap) {
   EXPECT_EQ(rows[0].map, "room.ot");
   EXPECT_EQ(rows[0].moving_s, 2.0);
   EXPECT_EQ(rows[0].waiting_s, 1.0);
+  EXPECT_EQ(rows[0].adding_s, 2.0) << "60 / 2.5 s against 30 / 1.5 s";
   EXPECT_EQ(rows[1].map, "hall.ot");
   EXPECT_EQ(rows[1].moving_s, 1.0);
   EXPECT_EQ(rows[1].waiting_s, 1.0);

@@ -27,7 +27,6 @@ inline Run made_run(const MadeRun& made) {
   run.solver = made.solver;
   run.budget = made.budget;
   run.seed = made.seed;
-  run.status = "finished";
   run.gain = made.gain;
   run.evaluations = made.evaluations;
   run.move_time_s = 0.5;

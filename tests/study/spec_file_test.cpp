@@ -100,6 +100,38 @@ TEST(SpecFile, ListsStarts) {
   EXPECT_THAT(study.maps[0].starts, ElementsAre(first, second));
 }
 
+TEST(SpecFile, RefusesAMapThatIsNone) {
+  const test::StudyFiles files;
+  files.folder.write("none.ot", "hello");
+  const std::string rest =
+      "motion_times_s: [1]\nsolvers: [{solver: auto}]\nmaps: [cluttered.ot, none.ot]\n";
+  for (const char* starts : {"{sampled: {count: 1}}", "{listed: [{base: [0, 0, 0]}]}"}) {
+    const std::string spec = "starts: " + std::string(starts) + "\n" + rest;
+    EXPECT_THAT(test::message_of<InputError>([&] { files.read(spec); }),
+                AllOf(HasSubstr("spec.yaml: line 1: starts"), HasSubstr("none.ot")));
+  }
+}
+
+TEST(SpecFile, RefusesAMapUnderTwoNames) {
+  const test::StudyFiles files;
+  files.write_map_file("copy.ot", 1);
+  EXPECT_THAT(test::message_of<InputError>([&] {
+                files.read(
+                    "maps: ['*.ot']\nstarts: {sampled: {count: 1}}\nmotion_times_s: [1]\n"
+                    "solvers: [{solver: auto}]\n");
+              }),
+              AllOf(HasSubstr("line 1"), HasSubstr("which is the same map as cluttered.ot")));
+}
+
+TEST(SpecFile, TakesAMapWithABracketInItsName) {
+  const test::StudyFiles files;
+  files.write_map_file("[1].ot", 3);
+  const Study study = files.read(
+      "maps: ['[1].ot']\nstarts: {sampled: {count: 1}}\nmotion_times_s: [1]\n"
+      "solvers: [{solver: auto}]\n");
+  EXPECT_EQ(study.maps[0].name, "[1].ot");
+}
+
 struct BadSpec {
   const char* what;
   const char* from;  ///< a line of the good spec
@@ -169,6 +201,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "did you mean 'paper-code'?"},
         BadSpec{"search_twice", "- solver: auto", "- solver: auto\n  - solver: auto",
                 "line 6: solvers would make a second search named 'auto'"},
+        BadSpec{"same_search", "- solver: auto",
+                "- solver: auto\n  - {name: other, local_starts: [5, 3]}", "keep one"},
+        BadSpec{"not_finite", "solver: auto", "{solver: auto, local: none, local_tolerance: nan}",
+                "not finite"},
+        BadSpec{"second_document", "motion_times_s: [1]", "motion_times_s: [1]\n---\nseeds: 2",
+                "a second document begins"},
+        BadSpec{"too_many_starts", "count: 1", "count: 1e9",
+                "line 2: starts.sampled.count is more"},
+        BadSpec{"same_start", "{sampled: {count: 1}}",
+                "{listed: [{base: [0, 0, 0]}, {base: [0, 0, 0]}]}", "names a value twice"},
+        BadSpec{"endless_time", "max_evaluations: [100]", "time_limits_ms: 1e14",
+                "line 6: budgets.time_limits_ms is 1e+14"},
+        BadSpec{"no_robot", "motion_times_s: [1]", "motion_times_s: [1]\nrobot: none.yaml",
+                "line 4: robot: "},
         BadSpec{"no_budget", "{max_evaluations: [100]}", "{}", "line 6: budgets is empty"},
         BadSpec{"zero_budget", "[100]", "[0]", "line 6: budgets.max_evaluations is 0"},
         BadSpec{"zero_time", "max_evaluations: [100]", "time_limits_ms: 0",

@@ -4,8 +4,6 @@
 
 #include <csignal>
 #include <map>
-#include <set>
-#include <thread>
 
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
@@ -51,7 +49,7 @@ class StudyRun : public testing::Test {
         "maps: [cluttered.ot]\n"
         "starts: {sampled: {count: 2}}\n"
         "motion_times_s: [0.5]\n"
-        "unit_timeout_s: 1\n"
+        "unit_timeout_s: 4\n"
         "solvers: [{solver: grid, step_pan_rad: " +
         steps + "}]\n");
   }
@@ -148,7 +146,7 @@ TEST_F(StudyRun, ASolverThatHangsIsStopped) {
   EXPECT_EQ(result.finished, 12U);
   EXPECT_EQ(result.failed, 2U);
   const Results results = read_results(study, folder("out"));
-  EXPECT_EQ(results.runs[0].failure, "stopped by the watchdog after 1 s");
+  EXPECT_EQ(results.runs[0].failure, "stopped by the watchdog after 4 s");
 }
 
 TEST_F(StudyRun, ASolverThatEndsItsWorkerCostsItsUnits) {
@@ -181,6 +179,50 @@ TEST_F(StudyRun, RefusesAWorkerThatIsNone) {
   EXPECT_THAT(message_with({"/bin/echo", "hello"}), HasSubstr("is no worker"));
   EXPECT_THAT(test::message_of<InputError>([&] { run(grids("[0.14]"), "noise"); }),
               HasSubstr("wrote what is no answer: noise"));
+}
+
+/// A worker written in a shell: it says hello, then runs the script once for each line.
+std::vector<std::string> shell_worker(const std::string& script) {
+  return {"/bin/sh", "-c",
+          R"(echo '{"protocol":1}'; while read -r line; do id=$(echo "$line" | cut -d'"' -f4); )" +
+              script + "; done"};
+}
+
+TEST_F(StudyRun, TakesAnswersOfTheUnitAtWorkOnly) {
+  const Study study = grids("[0.3]");
+  const auto message_with = [&](const std::string& script) {
+    return test::message_of<InputError>([&] {
+      run_study(study, folder("out"), WorkKind::query,
+                {.worker_command = shell_worker(script), .workers = 1}, on_end);
+    });
+  };
+  for (const char* script :
+       {R"(echo '{"unit":"another","answer":{},"busy_ms":1}')",
+        R"(echo "{\"unit\":\"$id\",\"busy_ms\":1}")",
+        R"(echo "{\"unit\":\"$id\",\"answer\":3,\"busy_ms\":1}")",
+        R"(echo "{\"unit\":\"$id\",\"failure\":\"\",\"busy_ms\":1}")", "echo 3"}) {
+    EXPECT_THAT(message_with(script), HasSubstr("wrote what is no answer")) << script;
+  }
+  EXPECT_EQ(message_with(R"(echo "{\"unit\":\"$id\",\"failure\":\"tired\",\"busy_ms\":1}")"), "");
+  EXPECT_EQ(read_results(study, folder("out")).runs[0].failure, "tired");
+}
+
+TEST_F(StudyRun, AWorkerThatTurnsSilentIsReplaced) {
+  const Study study = grids("[0.3]");
+  const CoordinatorResult result =
+      run_study(study, folder("out"), WorkKind::query,
+                {.worker_command = shell_worker("exec 1>&-; sleep 100"), .workers = 2}, on_end);
+  EXPECT_EQ(result.failed, unit_count(study));
+  EXPECT_THAT(read_results(study, folder("out")).runs[0].failure,
+              HasSubstr("its worker ended, twice: "));
+}
+
+TEST_F(StudyRun, RefusesRecordsOfAnotherSchema) {
+  const Study study = files.read(test::kSmallSpec);
+  std::filesystem::create_directories(folder("out").root);
+  files.folder.write("out/records.jsonl", "{\"schema\":2,\"unit\":\"x\"}\n");
+  EXPECT_THAT(test::message_of<InputError>([&] { run(study, "out"); }),
+              AllOf(HasSubstr("records.jsonl: line 1"), HasSubstr("schema 2")));
 }
 
 TEST_F(StudyRun, RefusesAFolderInUse) {
