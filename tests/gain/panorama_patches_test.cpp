@@ -100,7 +100,9 @@ TEST_F(PanoramaPatches, AreRefusedPerVoxel) {
 class PanoramaResiduals : public PanoramaPatches {
  protected:
   const MovingMast mast_ = world_.moving_mast();
-  const PanoramaObjective objective_{world_.grid, world_.sensor, mast_, world_.box, nullptr};
+  const PanoramaObjective objective_{
+      world_.grid, world_.sensor, mast_, world_.box, planning_panorama(world_.sensor.counting),
+      nullptr};
 };
 
 TEST_F(PanoramaResiduals, SquareUpToAConstantLessTheValue) {
