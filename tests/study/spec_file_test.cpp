@@ -223,7 +223,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SpecFile, SamplesTheSameStartsWhateverTheirNumber) {
   const test::StudyFiles files;
-  const std::string rest = "motion_times_s: [1]\nsolvers: [{solver: auto}]\nmaps: [cluttered.ot]\n";
+  files.write_map_file("crowded.ot", 5, 0.6);
+  const std::string rest = "motion_times_s: [1]\nsolvers: [{solver: auto}]\nmaps: [crowded.ot]\n";
   const Study few = files.read("starts: {sampled: {count: 4, seed: 3}}\n" + rest);
   const Study many = files.read("starts: {sampled: {count: 40, seed: 3}}\n" + rest);
   const Study other = files.read("starts: {sampled: {count: 4, seed: 4}}\n" + rest);

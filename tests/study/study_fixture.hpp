@@ -16,10 +16,10 @@ class StudyFiles {
  public:
   StudyFiles() { write_map_file("cluttered.ot", 1); }
 
-  void write_map_file(const std::string& name, std::uint64_t seed) const {
+  void write_map_file(const std::string& name, std::uint64_t seed, double clutter = 0.02) const {
     UncertaintyMap map(0.1);
     std::mt19937_64 random(seed);
-    scatter(map, keys_between(map.lattice(), {-2.0, -2.0, 0.0}, {2.0, 2.0, 1.5}), 0.02, random);
+    scatter(map, keys_between(map.lattice(), {-2.0, -2.0, 0.0}, {2.0, 2.0, 1.5}), clutter, random);
     map.finish_writing();
     write_map(map, folder / name, MapFormat::uncertainty_ot);
   }

@@ -207,6 +207,20 @@ TEST_F(StudyRun, TakesAnswersOfTheUnitAtWorkOnly) {
   EXPECT_EQ(read_results(study, folder("out")).runs[0].failure, "tired");
 }
 
+TEST_F(StudyRun, AUnitWhoseWorkerWasKilledOnceIsRunAgain) {
+  const Study study = grids("[0.3]");
+  const std::string mark = files.folder / "mark";
+  const std::string script = "test -e '" + mark + "' || { : > '" + mark + "'; kill -9 $$; }; " +
+                             R"(echo "{\"unit\":\"$id\",\"failure\":\"tired\",\"busy_ms\":1}")";
+  const CoordinatorResult result =
+      run_study(study, folder("out"), WorkKind::query,
+                {.worker_command = shell_worker(script), .workers = 1}, on_end);
+  EXPECT_EQ(result.finished, unit_count(study));
+  for (const study::Run& run : read_results(study, folder("out")).runs) {
+    EXPECT_EQ(run.failure, "tired");
+  }
+}
+
 TEST_F(StudyRun, AWorkerThatTurnsSilentIsReplaced) {
   const Study study = grids("[0.3]");
   const CoordinatorResult result =
