@@ -1,7 +1,5 @@
 #include "planner/yaml_value.hpp"
 
-#include <vector>
-
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -20,12 +18,7 @@ FieldValue scalar_value(const YAML::Node& node) {
 
 YAML::Node parse_yaml(const std::string& text, const std::string& name) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw InputError(name + ": line " + std::to_string(documents[1].Mark().line + 1) +
-                       ": a second document begins, keep one");
-    }
-    return documents.empty() ? YAML::Node() : documents.front();
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw InputError(name + ": line " + std::to_string(error.mark.line + 1) +
                      ": not valid YAML: " + error.msg);

@@ -9,7 +9,8 @@
 
 namespace nbvopt {
 
-/// The document. Throws InputError "<name>: line <n>: not valid YAML: ..."
+/// The first document: LoadAll() of yaml-cpp 0.7 never ends on some texts. Throws InputError
+/// "<name>: line <n>: not valid YAML: ..."
 YAML::Node parse_yaml(const std::string& text, const std::string& name);
 
 /// A scalar or a list of numbers. Throws InputError that names `field` for anything else.

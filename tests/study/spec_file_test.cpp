@@ -205,8 +205,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "- solver: auto\n  - {name: other, local_starts: [5, 3]}", "keep one"},
         BadSpec{"not_finite", "solver: auto", "{solver: auto, local: none, local_tolerance: nan}",
                 "not finite"},
-        BadSpec{"second_document", "motion_times_s: [1]", "motion_times_s: [1]\n---\nseeds: 2",
-                "a second document begins"},
         BadSpec{"too_many_starts", "count: 1", "count: 1e9",
                 "line 2: starts.sampled.count is more"},
         BadSpec{"same_start", "{sampled: {count: 1}}",
