@@ -1,6 +1,5 @@
 #include "study/unit_runner.hpp"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/planner.hpp"
+#include "planner/field_table.hpp"
 #include "study/digest.hpp"
 #include "study/reference_search.hpp"
 #include "study/start_sampling.hpp"
@@ -19,8 +19,6 @@ namespace nbvopt::study {
 namespace {
 
 constexpr const char* kExact = "exact";
-constexpr std::array kModes{UncertaintyMode::distance, UncertaintyMode::angle,
-                            UncertaintyMode::both};
 
 double elapsed_ms(StopRule::Clock::time_point since) {
   return std::chrono::duration<double, std::milli>(StopRule::Clock::now() - since).count();
@@ -36,6 +34,32 @@ PlanRequest request_of(const WorkUnit& unit) {
   request.record_trace = true;
   if (unit.budget.max_evaluations > 0) request.stop.max_evaluations = unit.budget.max_evaluations;
   return request;
+}
+
+/// The steps of the best exact gain. What was searched on another evaluator is judged again.
+Json progress_json(const std::vector<TracePoint>& trace, const ViewEvaluator& exact,
+                   const PlanRequest& request, const Mast& mast, bool is_exact,
+                   std::vector<double>& times_ms) {
+  std::vector<std::size_t> evaluations;
+  std::vector<std::size_t> exact_evaluations;
+  std::vector<double> gains;
+  std::size_t exact_count = 0;
+  double best = -1.0;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const TracePoint& point = trace[i];
+    if (point.kind != EvaluationKind::exact) continue;
+    ++exact_count;
+    if (!(point.gain > best)) continue;
+    best = point.gain;
+    const double gain =
+        is_exact ? point.gain : exact.evaluate(T_map_sensor(request, mast, point.joints)).gain;
+    if (!gains.empty() && gain <= gains.back()) continue;
+    evaluations.push_back(i + 1);
+    exact_evaluations.push_back(exact_count);
+    gains.push_back(gain);
+    times_ms.push_back(point.time_ms);
+  }
+  return {{"evaluations", evaluations}, {"exact_evaluations", exact_evaluations}, {"gain", gains}};
 }
 
 }  // namespace
@@ -96,36 +120,6 @@ class UnitRunner::Scene {
   std::map<std::pair<UncertaintyMode, std::string>, Judge> judges_;
 };
 
-namespace {
-
-/// The steps of the best exact gain. What was searched on another evaluator is judged again.
-Json progress_json(const std::vector<TracePoint>& trace, const ViewEvaluator& exact,
-                   const PlanRequest& request, const Mast& mast, bool is_exact,
-                   std::vector<double>& times_ms) {
-  std::vector<std::size_t> evaluations;
-  std::vector<std::size_t> exact_evaluations;
-  std::vector<double> gains;
-  std::size_t exact_count = 0;
-  double best = -1.0;
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    const TracePoint& point = trace[i];
-    if (point.kind != EvaluationKind::exact) continue;
-    ++exact_count;
-    if (!(point.gain > best)) continue;
-    best = point.gain;
-    const double gain =
-        is_exact ? point.gain : exact.evaluate(T_map_sensor(request, mast, point.joints)).gain;
-    if (!gains.empty() && gain <= gains.back()) continue;
-    evaluations.push_back(i + 1);
-    exact_evaluations.push_back(exact_count);
-    gains.push_back(gain);
-    times_ms.push_back(point.time_ms);
-  }
-  return {{"evaluations", evaluations}, {"exact_evaluations", exact_evaluations}, {"gain", gains}};
-}
-
-}  // namespace
-
 UnitRunner::UnitRunner(SolverFactory make) : make_(std::move(make)) {}
 UnitRunner::~UnitRunner() = default;
 
@@ -162,7 +156,7 @@ Json UnitRunner::run_query(const WorkUnit& unit) {
   std::vector<double> progress_ms;
   const Json progress = progress_json(result.trace, exact, request, mast, is_exact, progress_ms);
   Json gain_by_mode = Json::object();
-  for (const UncertaintyMode mode : kModes) {
+  for (const UncertaintyMode mode : kEnumerators<UncertaintyMode>) {
     gain_by_mode[to_string(mode)] = scene_->exact(mode).evaluate(result.T_map_sensor).gain;
   }
   return {{"status", to_string(result.status)},
