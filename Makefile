@@ -7,7 +7,7 @@ DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 # One of them needs what `make bench-search` wrote.
 NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
-SOURCES = $(shell find include src solvers cli datasets tests -name '*.hpp' -o -name '*.cpp')
+SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search bench-server notebook \
         sanitize sanitize-threads fuzz format check-format tidy clean
@@ -41,14 +41,14 @@ test: build  ## run all tests
 	@ctest --preset $(PRESET) --output-junit junit.xml
 
 bench: build  ## measure; compare two runs with Google Benchmark's tools/compare.py
-	@$(BUILD)/tests/bench/nbvopt_bench $(BENCH_ARGS)
+	@$(BUILD)/bench/nbvopt_bench $(BENCH_ARGS)
 
 bench-search: build  ## compare searches; every query's answer lands in out/search_quality.jsonl
 	@mkdir -p out
-	@$(BUILD)/tests/bench/nbvopt_bench_search --json out/search_quality.jsonl $(BENCH_ARGS)
+	@$(BUILD)/bench/nbvopt_bench_search --json out/search_quality.jsonl $(BENCH_ARGS)
 
 bench-server: build  ## measure the planning server: latency, then ten minutes of scans and plans
-	@$(BUILD)/tests/bench/nbvopt_bench_server $(BENCH_ARGS)
+	@$(BUILD)/bench/nbvopt_bench_server $(BENCH_ARGS)
 
 notebook: packages packages-notebooks  ## run the notebooks, which draw docs/images; search_quality after bench-search only
 	@cmake --preset $(PRESET) --log-level=WARNING
@@ -76,7 +76,7 @@ check-format: packages-ci
 
 tidy: packages-ci  ## lint all sources
 	@cmake --preset tidy --log-level=WARNING
-	@run-clang-tidy -quiet -j 2 -p build/tidy '^$(CURDIR)/(src|solvers|cli|datasets)/'
+	@run-clang-tidy -quiet -j 2 -p build/tidy '^$(CURDIR)/(src|solvers|cli|datasets|bench)/'
 
 clean:  ## remove all builds and what the demo wrote
 	@rm -rf build out

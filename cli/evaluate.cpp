@@ -4,13 +4,15 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/output.hpp"
-#include "cli/pose_file.hpp"
-#include "cli/view_arguments.hpp"
+#include "cli/options/view_arguments.hpp"
+#include "cli/terminal/output.hpp"
+#include "core/json.hpp"
+#include "core/stopwatch.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
+#include "planner/pose_file.hpp"
 
 namespace nbvopt {
 namespace {

@@ -4,14 +4,14 @@
 #include <array>
 
 #include "cli/evaluate.hpp"
-#include "cli/exit_code.hpp"
 #include "cli/map.hpp"
-#include "cli/output.hpp"
 #include "cli/query.hpp"
 #include "cli/reproduce.hpp"
 #include "cli/serve.hpp"
 #include "cli/simulate.hpp"
 #include "cli/study.hpp"
+#include "cli/terminal/exit_code.hpp"
+#include "cli/terminal/output.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/versions.hpp"

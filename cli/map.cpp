@@ -9,10 +9,12 @@
 #include <optional>
 #include <utility>
 
-#include "cli/arguments.hpp"
-#include "cli/output.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/terminal/output.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json.hpp"
 #include "core/number.hpp"
+#include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan_file.hpp"

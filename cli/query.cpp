@@ -8,21 +8,24 @@
 #include <utility>
 #include <vector>
 
-#include "cli/arguments.hpp"
-#include "cli/landscape.hpp"
-#include "cli/plot.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/solver_arguments.hpp"
+#include "cli/options/view_arguments.hpp"
 #include "cli/query_answer.hpp"
-#include "cli/solver_arguments.hpp"
-#include "cli/trace.hpp"
-#include "cli/view_arguments.hpp"
+#include "cli/terminal/output.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json.hpp"
 #include "core/number.hpp"
+#include "core/stopwatch.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "planner/landscape.hpp"
+#include "planner/trace.hpp"
+#include "plot/query_plot.hpp"
 
 namespace nbvopt {
 namespace {

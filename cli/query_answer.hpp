@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/output.hpp"
+#include "core/json.hpp"
 #include "nbvopt/planner/planner.hpp"
 
 namespace nbvopt {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "cli/arguments.hpp"
+#include "cli/options/arguments.hpp"
 #include "cli/reproduction.hpp"
 
 namespace nbvopt {

@@ -5,18 +5,19 @@
 #include <optional>
 #include <vector>
 
-#include "cli/end_by_signal.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/output.hpp"
-#include "cli/process_pool.hpp"
-#include "cli/progress.hpp"
-#include "cli/reproduction_table.hpp"
-#include "cli/reproduction_text.hpp"
-#include "cli/unit_files.hpp"
-#include "cli/unit_summary.hpp"
+#include "cli/terminal/end_by_signal.hpp"
+#include "cli/terminal/exit_code.hpp"
+#include "cli/terminal/output.hpp"
+#include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
 #include "core/folder.hpp"
+#include "core/json.hpp"
+#include "experiment/process_pool.hpp"
 #include "nbvopt/core/error.hpp"
+#include "reproduction/table.hpp"
+#include "reproduction/text.hpp"
+#include "reproduction/unit_files.hpp"
+#include "reproduction/unit_summary.hpp"
 
 namespace nbvopt {
 namespace {

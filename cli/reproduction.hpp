@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "cli/paper_experiment.hpp"
+#include "reproduction/paper_experiment.hpp"
 
 namespace nbvopt {
 

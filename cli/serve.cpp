@@ -12,9 +12,9 @@
 #include <string>
 #include <thread>
 
-#include "cli/arguments.hpp"
-#include "cli/output.hpp"
-#include "cli/view_arguments.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/view_arguments.hpp"
+#include "cli/terminal/output.hpp"
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/server.hpp"

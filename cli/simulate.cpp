@@ -5,16 +5,17 @@
 #include <optional>
 #include <vector>
 
-#include "cli/canvas.hpp"
-#include "cli/episode_output.hpp"
-#include "cli/plot_episode.hpp"
-#include "cli/progress.hpp"
-#include "cli/simulate_arguments.hpp"
+#include "cli/options/simulate_arguments.hpp"
+#include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json.hpp"
 #include "core/number.hpp"
+#include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/sim/floor.hpp"
+#include "plot/episode_plot.hpp"
+#include "sim/episode_output.hpp"
 
 namespace nbvopt {
 namespace {

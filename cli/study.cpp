@@ -12,14 +12,15 @@
 #include <thread>
 #include <vector>
 
-#include "cli/arguments.hpp"
-#include "cli/end_by_signal.hpp"
-#include "cli/output.hpp"
-#include "cli/progress.hpp"
-#include "cli/study_report.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/terminal/end_by_signal.hpp"
+#include "cli/terminal/output.hpp"
+#include "cli/terminal/progress.hpp"
+#include "core/json.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
-#include "study/spec_file.hpp"
+#include "study/report/report.hpp"
+#include "study/spec/spec_file.hpp"
 #include "study/study_run.hpp"
 #include "study/worker.hpp"
 

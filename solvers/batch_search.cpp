@@ -1,4 +1,4 @@
-#include "batch_search.hpp"
+#include "solvers/batch_search.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "best_seen.hpp"
-#include "stop_status.hpp"
+#include "solvers/best_seen.hpp"
+#include "solvers/stop_status.hpp"
 
 namespace nbvopt {
 namespace {

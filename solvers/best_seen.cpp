@@ -1,4 +1,4 @@
-#include "best_seen.hpp"
+#include "solvers/best_seen.hpp"
 
 #include <cmath>
 

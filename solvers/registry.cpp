@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "ceres.hpp"
-#include "grid.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nlopt.hpp"
-#include "random.hpp"
-#include "strategy.hpp"
+#include "solvers/backends/ceres.hpp"
+#include "solvers/backends/grid.hpp"
+#include "solvers/backends/nlopt.hpp"
+#include "solvers/backends/random.hpp"
+#include "solvers/strategy/strategy.hpp"
 
 namespace nbvopt {
 namespace {

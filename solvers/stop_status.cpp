@@ -1,4 +1,4 @@
-#include "stop_status.hpp"
+#include "solvers/stop_status.hpp"
 
 #include <algorithm>
 

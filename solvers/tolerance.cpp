@@ -1,4 +1,4 @@
-#include "tolerance.hpp"
+#include "solvers/tolerance.hpp"
 
 #include <cmath>
 #include <sstream>

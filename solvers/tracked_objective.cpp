@@ -1,6 +1,6 @@
-#include "tracked_objective.hpp"
+#include "solvers/tracked_objective.hpp"
 
-#include "stop_status.hpp"
+#include "solvers/stop_status.hpp"
 
 namespace nbvopt {
 

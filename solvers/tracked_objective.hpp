@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "best_seen.hpp"
 #include "nbvopt/solver/solver.hpp"
+#include "solvers/best_seen.hpp"
 
 namespace nbvopt {
 

@@ -1,4 +1,4 @@
-#include "unit_box.hpp"
+#include "solvers/unit_box.hpp"
 
 #include <algorithm>
 #include <cmath>

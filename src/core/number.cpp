@@ -2,6 +2,8 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
 
 namespace nbvopt {
 
@@ -18,6 +20,21 @@ std::string format_number(double value) {
   std::array<char, 32> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+std::string decimal(double value, int digits) {
+  const double unit = std::pow(10.0, -digits);
+  const bool negative = value <= -0.5 * unit;  // "-0.00" is 0.00
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.*f", digits, std::abs(value));
+  return (negative ? "\u2212" : "") + std::string(buffer);
+}
+
+std::string grouped(double value) {
+  std::string text = decimal(value, 0);
+  const std::size_t first = text.find_first_of("0123456789");
+  for (std::size_t i = text.size(); i > first + 3; i -= 3) text.insert(i - 3, ",");
+  return text;
 }
 
 }  // namespace nbvopt

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/edit_distance.hpp"
 #include "nbvopt/core/error.hpp"
-#include "planner/edit_distance.hpp"
 #include "planner/field_table.hpp"
 #include "planner/field_value.hpp"
 

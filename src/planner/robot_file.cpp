@@ -3,12 +3,12 @@
 #include <iomanip>
 #include <sstream>
 
+#include "core/edit_distance.hpp"
 #include "core/number.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
-#include "planner/edit_distance.hpp"
 #include "planner/field_table.hpp"
 #include "planner/yaml_value.hpp"
 

@@ -4,10 +4,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/edit_distance.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "planner/edit_distance.hpp"
 #include "planner/field_value.hpp"
 
 namespace nbvopt::study {

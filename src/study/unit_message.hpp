@@ -2,16 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "core/json.hpp"
 #include "study/study.hpp"
 
 namespace nbvopt::study {
-
-/// JSON whose keys keep the order in which they were written.
-using Json = nlohmann::ordered_json;
 
 /// The version of the protocol that workers say hello with.
 inline constexpr int kProtocolVersion = 1;

@@ -13,7 +13,7 @@
 #include "planner/field_table.hpp"
 #include "study/digest.hpp"
 #include "study/reference_search.hpp"
-#include "study/start_sampling.hpp"
+#include "study/spec/start_sampling.hpp"
 
 namespace nbvopt::study {
 namespace {

@@ -4,7 +4,7 @@
 file(REMOVE_RECURSE ${WORK_DIR})
 foreach(command
     "--install;${BUILD_DIR};--prefix;${WORK_DIR}/prefix"
-    "-S;${CMAKE_CURRENT_LIST_DIR};-B;${WORK_DIR}/build;-G;Ninja;-DCMAKE_CXX_COMPILER=${CXX};-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
+    "-S;${CMAKE_CURRENT_LIST_DIR}/../../examples/consumer;-B;${WORK_DIR}/build;-G;Ninja;-DCMAKE_CXX_COMPILER=${CXX};-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
     "--build;${WORK_DIR}/build")
   execute_process(COMMAND ${CMAKE_COMMAND} ${command} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/pose_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "planner/pose_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
+#include "core/edit_distance.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
-#include "planner/edit_distance.hpp"
 #include "support/error_message.hpp"
 
 namespace nbvopt {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "nbvopt/map/map_file.hpp"
-#include "study/spec_file.hpp"
+#include "study/spec/spec_file.hpp"
 #include "support/made_map.hpp"
 #include "support/temporary_folder.hpp"
 

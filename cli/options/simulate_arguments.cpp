@@ -1,0 +1,119 @@
+#include "cli/options/simulate_arguments.hpp"
+
+#include <CLI/Option.hpp>
+#include <limits>
+
+#include "cli/options/arguments.hpp"
+#include "core/atomic_file.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+void add_drive(CLI::App& simulate, SimulateOptions& options) {
+  simulate.option_defaults()->group("How the base drives");
+  simulate
+      .add_option_function<std::string>(
+          "--start",
+          [&options](const std::string& text) {
+            options.start = numbers_argument("--start", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
+          },
+          "where it starts to explore: metres and radians; z is the floor's when left out")
+      ->type_name("X,Y[,Z],YAW");
+  simulate
+      .add_option_function<std::vector<std::string>>(
+          "--goal",
+          [&options](const std::vector<std::string>& goals) {
+            for (const std::string& goal : goals) {
+              const auto numbers = numbers_argument("--goal", goal, {2}, "X,Y");
+              options.goals_m.emplace_back(numbers[0], numbers[1]);
+            }
+          },
+          "drive here instead of exploring; several are visited in turn")
+      ->type_name("X,Y");
+  simulate
+      .add_option("--trajectory", options.trajectory_file,
+                  "replay this drive, a CSV file that --trajectory-out wrote")
+      ->type_name("FILE");
+  add_number(simulate, "--lidar-range", options.exploration.mapping_range_m, "M",
+             "beams are cropped here for the map in the plane");
+  add_number(simulate, "--duration-max", options.exploration.duration_max_s, "SECONDS",
+             "end the exploration then");
+  simulate.add_flag("--explore-only", options.is_exploring_only, "drive and leave the camera off");
+}
+
+void add_camera(CLI::App& simulate, SimulateOptions& options) {
+  simulate.option_defaults()->group("What the camera does");
+  std::string modes;
+  for (const std::string& name : camera_mode_names()) modes += (modes.empty() ? "" : ", ") + name;
+  simulate.add_option("--mode", options.mode, "how the next view is chosen: " + modes)
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_number(simulate, "--motion-time", options.episode.motion_time_s, "SECONDS",
+             "from one capture to the next; joints move within it");
+  add_number(simulate, "--pan", options.episode.start_joints.pan_rad, "RAD", "pan at the start");
+  add_number(simulate, "--tilt", options.episode.start_joints.tilt_rad, "RAD", "tilt at the start");
+  add_number(simulate, "--height", options.episode.start_joints.height_m, "M",
+             "height at the start, above the base");
+  add_number(simulate, "--capture-hz", options.episode.capture_hz, "HZ",
+             "also capture while joints move, so often [no]");
+  simulate.add_flag("--charge-computing", options.episode.charge_computing,
+                    "let the base drive on while the computer maps and plans");
+  add_number(simulate, "--range-noise", options.episode.range_noise_m, "M",
+             "standard deviation of the camera's ranges");
+  add_number(simulate, "--resolution", options.resolution_m, "M", "of the map's voxels");
+  add_whole_number(simulate, "--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(),
+                   "of exploration, noise, and modes that draw random numbers");
+  add_robot_arguments(simulate, options.robot);
+}
+
+void add_outputs(CLI::App& simulate, SimulateOptions& options) {
+  simulate.option_defaults()->group("What to write");
+  const auto add_file = [&simulate](const char* name, std::string& target, const char* type,
+                                    const char* description) {
+    simulate.add_option(name, target, description)->type_name(type);
+  };
+  add_file("--map-out", options.map_out, "FILE.ot", "the map, also when the episode fails");
+  add_file("--metrics", options.metrics_out, "FILE.jsonl", "a JSON object a capture, as they come");
+  add_file("--trajectory-out", options.trajectory_out, "FILE.csv", "the drive, to be replayed");
+  add_file("--summary", options.summary_out, "FILE.json", "the answer as JSON, written last");
+  add_file("--plot", options.plot_out, "OUT.png", "the map from above with the drive on it");
+  simulate.add_flag("--json", options.json, "print the answer as JSON instead of text");
+  simulate.add_flag("--no-progress", options.is_silent, "show no progress bar");
+}
+
+}  // namespace
+
+void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
+  simulate.option_defaults()->group("Which world");
+  add_world_arguments(simulate, options.world);
+  add_drive(simulate, options);
+  add_camera(simulate, options);
+  add_outputs(simulate, options);
+}
+
+void check(const SimulateOptions& options) {
+  if (options.trajectory_file.empty() && options.start.empty()) {
+    throw UsageError("give --start X,Y,YAW to explore from, or --trajectory FILE to replay");
+  }
+  if (!options.trajectory_file.empty() && !(options.start.empty() && options.goals_m.empty())) {
+    throw UsageError("--trajectory holds the whole drive: leave --start and --goal out");
+  }
+  if (options.is_exploring_only && !options.trajectory_file.empty()) {
+    throw UsageError("--explore-only makes a trajectory: leave --trajectory out");
+  }
+  if (!options.trajectory_file.empty() && !options.trajectory_out.empty()) {
+    throw UsageError("--trajectory-out keeps a drive that is made: leave it or --trajectory out");
+  }
+  if (options.is_exploring_only &&
+      !(options.map_out.empty() && options.metrics_out.empty() && options.plot_out.empty())) {
+    throw UsageError("--explore-only maps nothing: leave --map-out, --metrics and --plot out");
+  }
+  // An episode whose outcome could not be kept would be in vain.
+  for (const std::string& file : {options.trajectory_out, options.map_out, options.metrics_out,
+                                  options.summary_out, options.plot_out}) {
+    if (!file.empty()) require_writable(file);
+  }
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,56 @@
+#include "cli/options/view_arguments.hpp"
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <vector>
+
+#include "cli/options/arguments.hpp"
+#include "nbvopt/gain/named_evaluator.hpp"
+#include "nbvopt/planner/robot_fields.hpp"
+
+namespace nbvopt {
+
+void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
+  app.add_option("--robot", arguments.robot_file,
+                 "robot and sensor, a YAML file [the paper's platform]")
+      ->type_name("FILE");
+  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
+                   "most threads to use; 0: all cores. Answers do not depend on it");
+}
+
+void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
+  app.add_option("--evaluator", arguments.evaluator,
+                 "exact: every voxel that a ray pierces; paper-code: the paper's released code")
+      ->check(CLI::IsMember(evaluator_names()))
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--counting", arguments.counting,
+                 "per_ray: sum over rays; per_voxel: each voxel once (Eq. 13) [as the robot says]")
+      ->check(CLI::IsMember({"per_ray", "per_voxel"}))
+      ->type_name("NAME");
+  add_robot_arguments(app, arguments);
+}
+
+ThreadLimit::ThreadLimit(const RobotArguments& arguments) {
+  if (arguments.threads <= 0) return;
+  limit_.emplace(tbb::global_control::max_allowed_parallelism,
+                 static_cast<std::size_t>(arguments.threads));
+}
+
+Robot make_robot(const RobotArguments& arguments) {
+  return arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+}
+
+Robot make_robot(const ViewArguments& arguments) {
+  Robot robot = make_robot(static_cast<const RobotArguments&>(arguments));
+  robot.sensor = evaluator_sensor(arguments.evaluator, robot.sensor);
+  return robot;
+}
+
+void set_counting(SensorOptions& sensor, const ViewArguments& arguments) {
+  if (arguments.counting.empty()) return;
+  const std::vector<FieldSetting> settings{{"counting", arguments.counting}};
+  set_fields(sensor, settings, "--counting");
+}
+
+}  // namespace nbvopt

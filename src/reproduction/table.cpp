@@ -1,0 +1,196 @@
+#include "reproduction/table.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "core/json.hpp"
+
+namespace nbvopt {
+namespace {
+
+/// Episodes of one environment and setting, by start.
+using Episodes = std::map<std::size_t, EpisodeFigures>;
+
+/// Every result where it belongs.
+class ResultIndex {
+ public:
+  ResultIndex(std::span<const Unit> units, std::span<const UnitResult> results)
+      : units_(units), results_(results) {}
+
+  bool has_environment(const ExperimentEnvironment& environment) const {
+    return std::ranges::find(units_, &environment, &Unit::environment) != units_.end();
+  }
+
+  Episodes episodes(const ExperimentEnvironment& environment, const EpisodeSetting& setting) const {
+    Episodes found;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      const Unit& unit = units_[i];
+      if (unit.environment == &environment && unit.episode == setting && results_[i].episode) {
+        found.emplace(unit.start, *results_[i].episode);
+      }
+    }
+    return found;
+  }
+
+ private:
+  std::span<const Unit> units_;
+  std::span<const UnitResult> results_;
+};
+
+double mean(const Episodes& episodes, double EpisodeFigures::*figure) {
+  double sum = 0.0;
+  for (const auto& [start, episode] : episodes) sum += episode.*figure;
+  return sum / static_cast<double>(episodes.size());
+}
+
+/// Those of the starts that the others have, too.
+Episodes shared_with(const Episodes& episodes, const Episodes& others) {
+  Episodes shared;
+  std::ranges::copy_if(episodes, std::inserter(shared, shared.end()),
+                       [&](const auto& episode) { return others.contains(episode.first); });
+  return shared;
+}
+
+std::string test_name(const EpisodeSetting& setting) {
+  return setting.mode == "static" ? "2D" : "2D+" + std::string(setting.mode);
+}
+
+void set_figures(ResultRow& row, const Episodes& episodes) {
+  row.starts = static_cast<double>(episodes.size());
+  row.voxels = mean(episodes, &EpisodeFigures::voxels);
+  row.information = mean(episodes, &EpisodeFigures::information);
+  row.duration_s = mean(episodes, &EpisodeFigures::duration_s);
+  row.voxels_per_s = *row.voxels / *row.duration_s;
+  row.information_per_s = *row.information / *row.duration_s;
+}
+
+void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes& all_still) {
+  const Episodes episodes = shared_with(all_episodes, all_still);
+  const Episodes still = shared_with(all_still, all_episodes);
+  if (episodes.empty()) return;
+  const auto percent = [&](double EpisodeFigures::*figure) {
+    return 100.0 * (mean(episodes, figure) / mean(still, figure) - 1.0);
+  };
+  row.voxels_percent = percent(&EpisodeFigures::voxels);
+  row.gain =
+      mean(episodes, &EpisodeFigures::information) - mean(still, &EpisodeFigures::information);
+  row.gain_percent = percent(&EpisodeFigures::information);
+  row.as_paper_counts_voxels_percent = percent(&EpisodeFigures::voxels_as_paper_counts);
+  row.as_paper_counts_gain_percent = percent(&EpisodeFigures::information_as_paper_counts);
+}
+
+/// What the paper's tables say of this test: they know a still camera and the pan grid.
+const PaperFigures* paper_figures(const PaperEnvironment& paper, const EpisodeSetting& setting) {
+  if (setting.mode == "static") return &paper.planar;
+  if (setting.mode != "grid") return nullptr;
+  const auto t = std::ranges::find(kPaperMotionTimes_s, setting.motion_time_s);
+  return &paper.optimised[static_cast<std::size_t>(t - kPaperMotionTimes_s.begin())];
+}
+
+std::string paper_label(const PaperEnvironment& paper) {
+  return std::string(paper.name) + " (" + std::string(paper.size_m) + ")";
+}
+
+ResultRow paper_row(const PaperEnvironment& paper, std::string test,
+                    std::optional<double> motion_time_s, std::string remark,
+                    const PaperFigures& figures) {
+  ResultRow row;
+  row.environment = paper_label(paper);
+  row.test = std::move(test);
+  row.motion_time_s = motion_time_s;
+  row.remark = std::move(remark);
+  row.paper = &figures;
+  return row;
+}
+
+/// The rows of an environment that cannot be had.
+void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper) {
+  const std::string remark = "not available here";
+  rows.push_back(paper_row(paper, "2D", std::nullopt, remark, paper.planar));
+  for (std::size_t i = 0; i < kPaperMotionTimes_s.size(); ++i) {
+    rows.push_back(paper_row(paper, "2D+grid", kPaperMotionTimes_s[i], remark, paper.optimised[i]));
+  }
+  rows.push_back(paper_row(paper, "3D", std::nullopt, remark, paper.spatial));
+}
+
+void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
+                 const ExperimentEnvironment& environment, const ResultIndex& index) {
+  for (const EpisodeSetting& setting : episode_settings()) {
+    ResultRow row;
+    row.environment = paper_label(paper);
+    row.test = test_name(setting);
+    row.motion_time_s = setting.motion_time_s;
+    row.paper = paper_figures(paper, setting);
+    const Episodes episodes = index.episodes(environment, setting);
+    if (episodes.empty()) {
+      row.remark = "missing";
+    } else {
+      set_figures(row, episodes);
+      if (setting.mode != "static") {
+        set_comparison(row, episodes,
+                       index.episodes(environment, {"static", setting.motion_time_s}));
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  rows.push_back(paper_row(paper, "3D", std::nullopt, "not simulated", paper.spatial));
+}
+
+std::vector<ResultRow> result_rows(const ResultIndex& index) {
+  std::vector<ResultRow> rows;
+  for (const PaperEnvironment& paper : paper_tables()) {
+    const auto all = experiment_environments();
+    const auto environment = std::ranges::find(all, paper.name, &ExperimentEnvironment::paper_name);
+    if (environment == all.end()) {
+      append_paper_rows(rows, paper);
+    } else if (index.has_environment(*environment)) {
+      append_rows(rows, paper, *environment, index);
+    }
+  }
+  return rows;
+}
+
+/// One row a setting for these environments together; none where nothing was predicted.
+void append_predictions(std::vector<PredictionRow>& rows, const std::string& label,
+                        std::span<const ExperimentEnvironment> environments,
+                        const ResultIndex& index) {
+  for (const EpisodeSetting& setting : episode_settings()) {
+    PredictionRow row;
+    row.environment = label;
+    row.test = test_name(setting);
+    row.motion_time_s = setting.motion_time_s;
+    for (const ExperimentEnvironment& environment : environments) {
+      for (const auto& [start, episode] : index.episodes(environment, setting)) {
+        row.record += episode.prediction;
+      }
+    }
+    if (row.record.steps > 0) rows.push_back(std::move(row));
+  }
+}
+
+std::vector<PredictionRow> prediction_rows(const ResultIndex& index) {
+  std::vector<PredictionRow> rows;
+  const auto all = experiment_environments();
+  append_predictions(rows, "all", all, index);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    append_predictions(rows, std::string(all[i].paper_name), all.subspan(i, 1), index);
+  }
+  return rows;
+}
+
+}  // namespace
+
+ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results) {
+  const ResultIndex index(units, results);
+  ReproductionTable table{result_rows(index), prediction_rows(index), {}, {}};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!results[i].exploration && !results[i].episode) table.missing.push_back(units[i].name);
+    if (results[i].exploration && results[i].exploration->status != "complete") {
+      table.incomplete.push_back(units[i].name);
+    }
+  }
+  return table;
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,63 @@
+// The reproduction's results beside the paper's.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reproduction/paper_experiment.hpp"
+#include "reproduction/paper_tables.hpp"
+#include "reproduction/unit_summary.hpp"
+
+namespace nbvopt {
+
+/// What a unit left behind; none of both when it has not been run to its end.
+struct UnitResult {
+  std::optional<ExplorationFigures> exploration;
+  std::optional<EpisodeFigures> episode;
+};
+
+/// Which test of which environment a row is about.
+struct RowLabel {
+  std::string environment;
+  std::string test;  ///< "2D", "2D+<mode>" or "3D"
+  std::optional<double> motion_time_s;
+};
+
+/// Our figures are means over the starts; percentages and gain compare with the still camera of
+/// the same t, over those starts that have both.
+struct ResultRow : RowLabel {
+  std::string remark;  ///< why there are no figures of ours, if so
+  std::optional<double> starts;
+  std::optional<double> voxels;
+  std::optional<double> voxels_percent;
+  std::optional<double> information;
+  std::optional<double> gain;
+  std::optional<double> gain_percent;
+  std::optional<double> duration_s;
+  std::optional<double> voxels_per_s;
+  std::optional<double> information_per_s;
+  std::optional<double> as_paper_counts_voxels_percent;
+  std::optional<double> as_paper_counts_gain_percent;
+  const PaperFigures* paper = nullptr;  ///< none: the paper has no such test
+};
+
+/// Gain predicted and realised, pooled over the starts of one environment or over all.
+struct PredictionRow : RowLabel {
+  PredictionRecord record;
+};
+
+struct ReproductionTable {
+  std::vector<ResultRow> results;
+  std::vector<PredictionRow> predictions;
+  std::vector<std::string> missing;     ///< names of units without a result
+  std::vector<std::string> incomplete;  ///< names of explorations that ended by their time limit
+};
+
+/// The table of these units, whose results stand in their order. Environments that are not among
+/// them are left out; those of the paper that cannot be had are not.
+ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results);
+
+}  // namespace nbvopt

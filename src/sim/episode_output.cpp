@@ -1,0 +1,125 @@
+#include "sim/episode_output.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+
+#include "core/number.hpp"
+#include "nbvopt/core/error.hpp"
+
+namespace nbvopt {
+namespace {
+
+/// JSON has no NaN: what does not exist is null.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
+
+}  // namespace
+
+void StepTimer::add(const Capture& capture) {
+  sum_.render_ms += capture.render_ms;
+  sum_.insert_ms += capture.insert_ms;
+  sum_.grid_ms += capture.grid_ms;
+  sum_.plan_ms += capture.plan_ms;
+  ++captures_;
+}
+
+StepTimes StepTimer::mean() const {
+  if (captures_ == 0) return {};
+  const auto n = static_cast<double>(captures_);
+  return {sum_.render_ms / n, sum_.insert_ms / n, sum_.grid_ms / n, sum_.plan_ms / n};
+}
+
+Json to_json(const Capture& capture) {
+  const Eigen::Vector3d& base_m = capture.T_map_base.translation();
+  const Eigen::Vector3d x_map = capture.T_map_base.linear().col(0);
+  return {{"frame", capture.frame},
+          {"time_s", capture.time_s},
+          {"base", {base_m.x(), base_m.y(), base_m.z(), std::atan2(x_map.y(), x_map.x())}},
+          {"pan", capture.joints.pan_rad},
+          {"tilt", capture.joints.tilt_rad},
+          {"height", capture.joints.height_m},
+          {"is_on_the_way", capture.is_on_the_way},
+          {"points_used", capture.points_used},
+          {"voxels", capture.voxels},
+          {"information", capture.information},
+          {"information_gain", capture.information_gain},
+          {"predicted_gain", number_or_null(capture.predicted_gain)},
+          {"realised_gain", number_or_null(capture.realised_gain)},
+          {"motion_time_s", capture.motion_time_s},
+          {"render_ms", capture.render_ms},
+          {"insert_ms", capture.insert_ms},
+          {"grid_ms", capture.grid_ms},
+          {"plan_ms", capture.plan_ms}};
+}
+
+Json to_json(const EpisodeReport& report) {
+  const EpisodeSummary& summary = report.summary;
+  const PredictionRecord& prediction = summary.prediction;
+  return {{"world", report.world},
+          {"mode", report.mode},
+          {"motion_time_s", report.motion_time_s},
+          {"seed", report.seed},
+          {"duration_s", summary.duration_s},
+          {"captures", summary.captures},
+          {"voxels", summary.voxels},
+          {"information", summary.information},
+          {"voxels_as_paper_counts", report.paper_counts.voxels},
+          {"information_as_paper_counts", report.paper_counts.information},
+          {"prediction",
+           {{"steps", prediction.steps},
+            {"correlation", number_or_null(prediction.correlation())},
+            {"predicted_sum", prediction.sum_x},
+            {"realised_sum", prediction.sum_y},
+            {"bias", number_or_null(prediction.bias())},
+            {"pooled",
+             {{"sum_x", prediction.sum_x},
+              {"sum_y", prediction.sum_y},
+              {"sum_xx", prediction.sum_xx},
+              {"sum_yy", prediction.sum_yy},
+              {"sum_xy", prediction.sum_xy}}}}},
+          {"times_ms",
+           {{"render", report.times.render_ms},
+            {"insert", report.times.insert_ms},
+            {"grid", report.times.grid_ms},
+            {"plan", report.times.plan_ms},
+            {"episode", report.elapsed_ms}}}};
+}
+
+std::string to_text(const EpisodeReport& report) {
+  const EpisodeSummary& summary = report.summary;
+  const PredictionRecord& prediction = summary.prediction;
+  std::string text = report.mode + ", t = " + decimal(report.motion_time_s, 2) +
+                     " s: " + std::to_string(summary.captures) + " captures in " +
+                     decimal(summary.duration_s, 1) + " s of driving\n" +
+                     "map: " + std::to_string(summary.voxels) + " voxels with u < 1, information " +
+                     decimal(summary.information, 1) + "\n";
+  if (std::isfinite(prediction.correlation())) {
+    text += "gain: predicted " + decimal(prediction.sum_x, 0) + ", realised " +
+            decimal(prediction.sum_y, 0) + " (bias " + percent(prediction.bias()) +
+            "), correlation " + decimal(prediction.correlation(), 3) + "\n";
+  }
+  const StepTimes& times = report.times;
+  return text + "computing: " + decimal(1e-3 * report.elapsed_ms, 1) + " s, " +
+         decimal(1e3 * summary.duration_s / report.elapsed_ms, 1) +
+         " times faster than real time; a capture " + decimal(times.render_ms, 1) +
+         " ms to render, " + decimal(times.insert_ms, 1) + " to insert, " +
+         decimal(times.grid_ms, 1) + " for the grid, " + decimal(times.plan_ms, 1) + " to plan\n";
+}
+
+CaptureLog::CaptureLog(const std::string& path)
+    : path_(path), out_(path, std::ios::binary | std::ios::trunc) {
+  if (!out_) {
+    throw InputError(path + ": cannot be written: " + std::generic_category().message(errno));
+  }
+}
+
+void CaptureLog::add(const Capture& capture) {
+  out_ << to_json(capture).dump() << '\n' << std::flush;
+  if (!out_) {
+    throw InputError(path_ + ": cannot be written: " + std::generic_category().message(errno));
+  }
+}
+
+}  // namespace nbvopt

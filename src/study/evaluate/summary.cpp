@@ -1,0 +1,56 @@
+#include "study/evaluate/summary.hpp"
+
+#include "study/evaluate/ratio.hpp"
+#include "study/evaluate/sample.hpp"
+
+namespace nbvopt::study {
+namespace {
+
+struct Samples {
+  std::size_t failures = 0;
+  std::size_t runs = 0;
+  std::vector<double> ratio;
+  std::vector<double> exact_evaluations;
+  std::vector<double> surrogate_evaluations;
+  std::vector<double> search_time_ms;
+
+  void add(const Results& results, const Run& run) {
+    ++runs;
+    if (has_reference(results, run)) ratio.push_back(gain_ratio(results, run));
+    if (run.has_failed()) {
+      ++failures;
+      return;
+    }
+    exact_evaluations.push_back(static_cast<double>(run.evaluations));
+    surrogate_evaluations.push_back(static_cast<double>(run.surrogate_evaluations));
+    search_time_ms.push_back(run.search_time_ms);
+  }
+};
+
+}  // namespace
+
+std::vector<Summary> summarise(const Results& results) {
+  const std::size_t budgets = results.budgets.size();
+  std::vector<Samples> samples(results.solvers.size() * budgets);
+  for (const Run& run : results.runs) {
+    samples[run.solver * budgets + run.budget].add(results, run);
+  }
+  std::vector<Summary> rows;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Samples& own = samples[i];
+    rows.push_back({.solver = i / budgets,
+                    .budget = i % budgets,
+                    .runs = own.runs,
+                    .failures = own.failures,
+                    .mean_ratio = mean(own.ratio),
+                    .median_ratio = quantile(own.ratio, 0.5),
+                    .worst_ratio = quantile(own.ratio, 0.0),
+                    .mean_exact_evaluations = mean(own.exact_evaluations),
+                    .mean_surrogate_evaluations = mean(own.surrogate_evaluations),
+                    .mean_search_time_ms = mean(own.search_time_ms),
+                    .p99_search_time_ms = quantile(own.search_time_ms, 0.99)});
+  }
+  return rows;
+}
+
+}  // namespace nbvopt::study

@@ -1,0 +1,218 @@
+#include "reproduction/table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reproduction/text.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace nbvopt::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The experiment in the apartment and the cafe, with results made up by a test.
+class Reproduction : public testing::Test {
+ protected:
+  Reproduction() {
+    for (const ExperimentEnvironment& environment : experiment_environments()) {
+      const std::filesystem::path world = folder.path() / environment.world_file;
+      std::filesystem::create_directories(world.parent_path());
+      std::ofstream(world) << "<sdf/>";
+    }
+    ExperimentOptions options;
+    options.worlds_folder = folder.path();
+    options.output_folder = "out";
+    options.environments = {"cafe", "apartment"};
+    units = experiment_units(options);
+    results.resize(units.size());
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      if (!units[i].episode) results[i].exploration = {"complete", 200.0, 40.0};
+    }
+  }
+
+  UnitResult& at(const std::string& name) {
+    const auto unit = std::ranges::find(units, name, &Unit::name);
+    EXPECT_NE(unit, units.end()) << name;
+    return results[static_cast<std::size_t>(unit - units.begin())];
+  }
+
+  /// As the authors count, there is twice as much, and 10 more.
+  static EpisodeFigures episode(double voxels, double information) {
+    EpisodeFigures summary;
+    summary.duration_s = 100.0;
+    summary.voxels = voxels;
+    summary.information = information;
+    summary.voxels_as_paper_counts = 2.0 * voxels;
+    summary.information_as_paper_counts = 2.0 * information + 10.0;
+    return summary;
+  }
+
+  ReproductionTable table() const { return make_table(units, results); }
+
+  static const ResultRow& row(const ReproductionTable& table, const std::string& environment,
+                              const std::string& test, std::optional<double> motion_time_s) {
+    const auto found = std::ranges::find_if(table.results, [&](const ResultRow& row) {
+      return row.environment.starts_with(environment) && row.test == test &&
+             row.motion_time_s == motion_time_s;
+    });
+    EXPECT_NE(found, table.results.end()) << environment << ' ' << test;
+    return *found;
+  }
+
+  const TemporaryFolder folder;
+  std::vector<Unit> units;
+  std::vector<UnitResult> results;
+};
+
+TEST_F(Reproduction, HasARowForEveryTestInThePapersOrder) {
+  std::vector<std::string> environments;
+  std::vector<std::string> tests;
+  for (const ResultRow& row : table().results) {
+    if (environments.empty() || environments.back() != row.environment) {
+      environments.push_back(row.environment);
+    }
+    if (row.environment == "cafe (25x10)") tests.push_back(row.test);
+  }
+  EXPECT_THAT(environments, ElementsAre("apartment (19x11)", "bookstore (15x14)", "cafe (25x10)"));
+  EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+auto", "2D", "2D+grid", "2D+grid-3",
+                                 "2D+auto", "2D+random", "2D", "2D+grid", "2D+auto", "3D"));
+}
+
+TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameTime) {
+  at("cafe-1-static-0.5").episode = episode(1000, 500);
+  at("cafe-2-static-0.5").episode = episode(2000, 700);
+  at("cafe-1-auto-0.5").episode = episode(1500, 800);
+  at("cafe-2-auto-0.5").episode = episode(3000, 1000);
+  at("cafe-1-static-1").episode = episode(2000, 2000);
+  at("cafe-1-auto-1").episode = episode(2000, 2500);
+  const ReproductionTable made = table();
+
+  const ResultRow& still = row(made, "cafe", "2D", 0.5);
+  EXPECT_EQ(still.voxels, 1500.0);
+  EXPECT_EQ(still.information, 600.0);
+  EXPECT_EQ(still.gain, std::nullopt);
+
+  const ResultRow& best = row(made, "cafe", "2D+auto", 0.5);
+  EXPECT_EQ(best.starts, 2.0);
+  EXPECT_EQ(best.voxels, 2250.0);
+  EXPECT_NEAR(best.voxels_percent.value(), 50.0, 1e-12);
+  EXPECT_EQ(best.information, 900.0);
+  EXPECT_EQ(best.gain, 300.0);
+  EXPECT_NEAR(best.gain_percent.value(), 50.0, 1e-12);
+  EXPECT_EQ(best.duration_s, 100.0);
+  EXPECT_EQ(best.voxels_per_s, 22.5);
+  EXPECT_EQ(best.information_per_s, 9.0);
+  EXPECT_NEAR(best.as_paper_counts_voxels_percent.value(), 50.0, 1e-12);
+  EXPECT_NEAR(best.as_paper_counts_gain_percent.value(), 100.0 * (1810.0 / 1210.0 - 1.0), 1e-12);
+  EXPECT_EQ(row(made, "cafe", "2D+auto", 1.0).gain, 500.0);
+}
+
+TEST_F(Reproduction, ThePapersFiguresStandBesideItsOwnTests) {
+  const ReproductionTable made = table();
+  EXPECT_EQ(row(made, "cafe", "2D", 0.2).paper->voxels, 69'566);
+  EXPECT_EQ(row(made, "cafe", "2D+grid", 1.0).paper->gain_percent, 57.53);
+  EXPECT_EQ(row(made, "cafe", "3D", std::nullopt).paper->information, 74'196);
+  EXPECT_EQ(row(made, "cafe", "2D+auto", 0.5).paper, nullptr);
+  EXPECT_EQ(row(made, "cafe", "2D+grid-3", 0.5).paper, nullptr);
+  EXPECT_EQ(row(made, "bookstore", "2D+grid", 0.5).paper->gain_percent, 18.71);
+  EXPECT_EQ(row(made, "bookstore", "2D+grid", 0.5).remark, "not available here");
+}
+
+TEST_F(Reproduction, PercentagesCompareOnlyStartsThatHaveBoth) {
+  at("cafe-1-static-0.5").episode = episode(1000, 500);
+  at("cafe-3-static-0.5").episode = episode(9000, 9000);
+  at("cafe-1-grid-0.5").episode = episode(1100, 600);
+  at("cafe-2-grid-0.5").episode = episode(3000, 3000);
+  const ReproductionTable made = table();
+  const ResultRow& grid = row(made, "cafe", "2D+grid", 0.5);
+  EXPECT_EQ(grid.starts, 2.0);
+  EXPECT_EQ(grid.information, 1800.0);
+  EXPECT_EQ(grid.gain, 100.0);
+  EXPECT_NEAR(grid.gain_percent.value(), 20.0, 1e-12);
+}
+
+TEST_F(Reproduction, HolesAreNamed) {
+  at("cafe-1-grid-0.5").episode = episode(1000, 500);
+  at("apartment-2-trajectory").exploration.reset();
+  at("apartment-3-trajectory").exploration->status = "time_limit";
+  const ReproductionTable made = table();
+  EXPECT_EQ(row(made, "cafe", "2D+grid", 0.5).gain, std::nullopt) << "nothing to compare with";
+  EXPECT_EQ(row(made, "cafe", "2D+auto", 0.5).remark, "missing");
+  EXPECT_THAT(made.missing, testing::Contains("apartment-2-trajectory"));
+  EXPECT_THAT(made.missing, testing::Contains("cafe-1-auto-1"));
+  EXPECT_THAT(made.missing, Not(testing::Contains("cafe-1-grid-0.5")));
+  EXPECT_THAT(made.incomplete, ElementsAre("apartment-3-trajectory"));
+  const std::string markdown = to_markdown(made);
+  EXPECT_THAT(markdown, HasSubstr("did not run to their end: apartment-2-trajectory, "));
+  EXPECT_THAT(markdown, HasSubstr("for lack of time: apartment-3-trajectory."));
+}
+
+TEST_F(Reproduction, PredictionsArePooledOverStartsAndEnvironments) {
+  // Steps (x, y): (1, 1), (2, 3) in the apartment and (3, 2) in the cafe.
+  at("apartment-1-auto-0.5").episode = episode(1, 1);
+  at("apartment-1-auto-0.5").episode->prediction = {2, 3, 4, 5, 10, 7};
+  at("cafe-2-auto-0.5").episode = episode(1, 1);
+  at("cafe-2-auto-0.5").episode->prediction = {1, 3, 2, 9, 4, 6};
+  const ReproductionTable made = table();
+  ASSERT_EQ(made.predictions.size(), 3U);
+  const PredictionRow& all = made.predictions[0];
+  EXPECT_EQ(all.environment, "all");
+  EXPECT_EQ(all.test, "2D+auto");
+  EXPECT_EQ(all.record.steps, 3U);
+  EXPECT_NEAR(all.record.correlation(), 0.5, 1e-12);
+  EXPECT_NEAR(all.record.bias(), 0.0, 1e-12);
+  EXPECT_EQ(made.predictions[1].environment, "apartment");
+  EXPECT_NEAR(made.predictions[1].record.correlation(), 1.0, 1e-12);
+  EXPECT_NEAR(made.predictions[1].record.bias(), -0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(made.predictions[2].record.correlation())) << "of a single step";
+}
+
+TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {
+  at("cafe-1-static-0.5").episode = episode(12345.4, 1000);
+  at("cafe-1-grid-0.5").episode = episode(1234567, 987.654);
+  at("cafe-1-grid-0.5").episode->prediction = {2, 3, 4, 5, 10, 7};
+  const std::string markdown = to_markdown(table());
+  EXPECT_THAT(markdown, HasSubstr("| 2D (t=0.5) | 1 | 12,345 |  | 1,000 |  |  | 100 | 123 | 10 |"));
+  EXPECT_THAT(markdown, HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.22% | 988 | \u221212 | "
+                                  "\u22121.23% | 100 |"));
+  EXPECT_THAT(markdown, HasSubstr("| 49.50% | 56.35% | 227 | 245 |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| all | 2D+grid (t=0.5) | 2 | 1.000 | \u221225.00% |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| bookstore (15x14) | 2D | not available here |"));
+  EXPECT_THAT(markdown, HasSubstr("|  | 3D | not simulated |"));
+}
+
+TEST_F(Reproduction, CsvAndJsonHoldAllFiguresUnrounded) {
+  at("cafe-1-static-0.5").episode = episode(1000, 500);
+  at("cafe-1-grid-0.5").episode = episode(1003, 500.5);
+  const ReproductionTable made = table();
+  const std::string csv = to_csv(made.results);
+  EXPECT_THAT(csv, testing::StartsWith("environment,test,motion_time_s,starts,voxels,"));
+  EXPECT_THAT(csv, HasSubstr("\ncafe (25x10),2D+grid,0.5,1,1003,"));
+  EXPECT_THAT(csv, HasSubstr(",103998,49.5,55636,20051,56.35,227,0,457,245\n"));
+  const auto columns = [](const std::string& line) { return std::ranges::count(line, ','); };
+  const std::string header = csv.substr(0, csv.find('\n'));
+  const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  EXPECT_EQ(columns(header), columns(last));
+  EXPECT_THAT(to_csv(made.predictions),
+              testing::StartsWith("environment,test,motion_time_s,steps,predicted_sum,"));
+
+  const Json json = to_json(made);
+  EXPECT_EQ(json["results"].size(), made.results.size());
+  const auto found = std::ranges::find_if(json["results"], [](const Json& row) {
+    return row["environment"] == "cafe (25x10)" && row["test"] == "2D+grid" &&
+           row["motion_time_s"] == 0.5;
+  });
+  ASSERT_NE(found, json["results"].end());
+  EXPECT_EQ((*found)["information"], 500.5);
+  EXPECT_EQ((*found)["paper_information"], 55'636.0);
+  EXPECT_EQ(json["results"][0]["gain"], nullptr);
+  EXPECT_EQ(json["missing"].size(), made.missing.size());
+}
+
+}  // namespace
+}  // namespace nbvopt::test
