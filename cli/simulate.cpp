@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options/simulate_arguments.hpp"
+#include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"

@@ -105,7 +105,7 @@ void run(const StudyOptions& options, WorkKind kind) {
   const study::RunOptions how = run_options(options);
   Progress progress("study", static_cast<double>(to_run));
   double ended = 0.0;
-  const auto on_end = [&](const study::Json& record) {
+  const auto on_end = [&](const Json& record) {
     if (record.contains("failure")) {
       progress.finish();
       print_message("unit " + study::record_id(record) +
