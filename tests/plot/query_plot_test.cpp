@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "plot/axis.hpp"
 #include "plot/canvas.hpp"
