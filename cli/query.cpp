@@ -139,7 +139,7 @@ QueryAnswer ask_server(const QueryOptions& options) {
   QueryAnswer answer;
   answer.request = request_of(options, *options.height_m);
   const Stopwatch calling;
-  RemotePlan plan = client.plan(answer.request, solver_choice(options.solver));
+  RemotePlan plan = client.plan(answer.request, search_of(options.solver));
   answer.remote = {.server = options.server, .call_ms = calling.elapsed_ms()};
   answer.counting = plan.counting;
   answer.result = std::move(plan.result);
@@ -148,7 +148,7 @@ QueryAnswer ask_server(const QueryOptions& options) {
 
 QueryAnswer search_map(const QueryOptions& options) {
   const Robot robot = robot_of(options);
-  const auto solver = make_solver(solver_choice(options.solver));
+  const auto solver = make_solver(search_of(options.solver));
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;

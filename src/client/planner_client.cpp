@@ -103,7 +103,7 @@ PlannerClient::PlannerClient(const std::string& address, const ClientTls& tls,
 PlannerClient::PlannerClient(PlannerClient&&) noexcept = default;
 PlannerClient::~PlannerClient() = default;
 
-RemotePlan PlannerClient::plan(const PlanRequest& request, const SolverChoice& search) {
+RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search) {
   v1::PlanRequest message = to_message(request);
   *message.mutable_search() = to_message(search);
   if (request.stop.deadline) {

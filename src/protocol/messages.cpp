@@ -186,11 +186,11 @@ BaseTwist from_message(const v1::BaseTwist& twist, const std::string& field) {
           .wz_rad_s = needed(twist.has_wz_rad_s(), twist.wz_rad_s(), field + ".wz_rad_s")};
 }
 
-SolverChoice from_message(const v1::Search& search) {
+Search from_message(const v1::Search& search) {
   return {.solver = set_or_none(search.has_solver(), search.solver()),
-          .global = set_or_none(search.has_global(), search.global()),
-          .local = set_or_none(search.has_local(), search.local()),
-          .polish = set_or_none(search.has_polish(), search.polish()),
+          .stages = named_stages(set_or_none(search.has_global(), search.global()),
+                                 set_or_none(search.has_local(), search.local()),
+                                 set_or_none(search.has_polish(), search.polish())),
           .grid_steps = {search.grid_steps().begin(), search.grid_steps().end()}};
 }
 
@@ -311,13 +311,20 @@ v1::JointPosition to_message(const JointPosition& joints) {
   return message;
 }
 
-v1::Search to_message(const SolverChoice& choice) {
+v1::Search to_message(const Search& search) {
   v1::Search message;
-  if (choice.solver) message.set_solver(*choice.solver);
-  if (choice.global) message.set_global(*choice.global);
-  if (choice.local) message.set_local(*choice.local);
-  if (choice.polish) message.set_polish(*choice.polish);
-  for (const double step : choice.grid_steps) message.add_grid_steps(step);
+  if (search.solver) message.set_solver(*search.solver);
+  if (search.stages) {
+    message.set_global(stage_name(search.stages->global));
+    message.set_local(stage_name(search.stages->local));
+    message.set_polish(stage_name(search.stages->polish));
+  }
+  for (const double step : search.grid_steps) message.add_grid_steps(step);
+  if (from_message(message) != search) {
+    throw InputError(
+        "search: a server takes solver, grid_steps and the stages' solvers, leave its other "
+        "parameters at their defaults");
+  }
   return message;
 }
 

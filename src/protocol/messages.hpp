@@ -9,7 +9,7 @@
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "nbvopt/solver/solver_choice.hpp"
+#include "nbvopt/solver/search.hpp"
 #include "nbvopt/v1/planner.pb.h"
 
 namespace nbvopt {
@@ -19,7 +19,7 @@ Transform from_message(const v1::Pose& pose, const std::string& field);
 Transform from_message(const v1::BasePose& base, const std::string& field);
 JointPosition from_message(const v1::JointPosition& joints, const std::string& field);
 BaseTwist from_message(const v1::BaseTwist& twist, const std::string& field);
-SolverChoice from_message(const v1::Search& search);
+Search from_message(const v1::Search& search);
 ViewGain from_message(const v1::ViewGain& view);
 MapFormat from_message(v1::MapFormat format);
 
@@ -36,7 +36,7 @@ Scan scan_from_message(const v1::InsertScanRequest& request, std::uint64_t max_p
 
 v1::Pose to_message(const Transform& T);
 v1::JointPosition to_message(const JointPosition& joints);
-v1::Search to_message(const SolverChoice& choice);
+v1::Search to_message(const Search& search);
 v1::ViewGain to_message(const ViewGain& view);
 v1::MapFormat to_message(MapFormat format);
 v1::PlanRequest to_message(const PlanRequest& request);

@@ -12,7 +12,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "nbvopt/solver/solver_choice.hpp"
+#include "nbvopt/solver/search.hpp"
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
 #include "python/shared_map.hpp"
@@ -73,13 +73,12 @@ PlanResult query(const std::shared_ptr<SharedMap>& map, const Robot& robot, cons
   request.min_gain = min_gain;
   request.seed = seed_from(seed);
   request.record_trace = trace;
-  const auto search = make_solver({.solver = solver,
-                                   .global = global_solver,
-                                   .local = local_solver,
-                                   .polish = polish_solver,
-                                   .grid_steps = {non_negative(step_pan_rad, "step_pan_rad"),
-                                                  non_negative(step_tilt_rad, "step_tilt_rad"),
-                                                  non_negative(step_height_m, "step_height_m")}});
+  const auto search =
+      make_solver({.solver = solver,
+                   .stages = named_stages(global_solver, local_solver, polish_solver),
+                   .grid_steps = {non_negative(step_pan_rad, "step_pan_rad"),
+                                  non_negative(step_tilt_rad, "step_tilt_rad"),
+                                  non_negative(step_height_m, "step_height_m")}});
 
   const py::gil_scoped_release release;
   Robot as_evaluated = robot;

@@ -83,12 +83,27 @@ TEST(Messages, KeepAnAnswer) {
   EXPECT_EQ(same.warnings, result.warnings);
 }
 
-TEST(Messages, KeepAChoiceOfSolvers) {
-  for (const SolverChoice& choice :
-       {SolverChoice{}, SolverChoice{.solver = "grid", .grid_steps = {0.8, 0.0, 0.1}},
-        SolverChoice{.global = "none", .polish = "nlopt:sbplx"}, SolverChoice{.local = ""}}) {
-    EXPECT_EQ(from_message(to_message(choice)), choice);
+TEST(Messages, KeepASearch) {
+  for (const Search& search :
+       {Search{}, Search{.solver = "grid", .grid_steps = {0.8, 0.0, 0.1}},
+        Search{.stages = StrategyOptions{}},
+        Search{.stages = StrategyOptions{.global = "", .polish = "nlopt:sbplx"}}}) {
+    EXPECT_EQ(from_message(to_message(search)), search);
   }
+}
+
+TEST(Messages, TakeStagesThatAreNotNamedFromAuto) {
+  v1::Search message;
+  message.set_local("none");
+  EXPECT_EQ(from_message(message), (Search{.stages = StrategyOptions{.local = ""}}));
+  message.set_polish("");
+  EXPECT_THAT(test::message_of<UsageError>([&] { from_message(message); }),
+              HasSubstr("polish stage is empty"));
+}
+
+TEST(Messages, RefuseASearchThatAServerCannotBeTold) {
+  EXPECT_THROW(to_message(Search{.solver = "nlopt:sbplx", .tolerance = 0.1}), InputError);
+  EXPECT_THROW(to_message(Search{.stages = StrategyOptions{.local_starts = 9}}), InputError);
 }
 
 TEST(Messages, KeepAScan) {

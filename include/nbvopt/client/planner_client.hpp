@@ -14,7 +14,7 @@
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "nbvopt/solver/solver_choice.hpp"
+#include "nbvopt/solver/search.hpp"
 
 namespace nbvopt {
 
@@ -99,8 +99,9 @@ class PlannerClient {
   ~PlannerClient();
 
   /// The request's deadline and evaluation limit are sent along; its cancel flag and its trace are
-  /// not.
-  RemotePlan plan(const PlanRequest& request, const SolverChoice& search = {});
+  /// not. Throws InputError for a search whose tolerance, initial step or stages' parameters, the
+  /// solvers aside, are not the defaults: a server takes none.
+  RemotePlan plan(const PlanRequest& request, const Search& search = {});
 
   RemoteGains evaluate(std::span<const Transform> poses_T_map_sensor);
 
