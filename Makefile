@@ -9,8 +9,8 @@ DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
-.PHONY: help packages packages-ci packages-notebooks build demo test bench bench-search bench-server notebook \
-        sanitize sanitize-threads fuzz format check-format tidy clean
+.PHONY: help packages packages-ci packages-notebooks packages-docs build demo test bench bench-search bench-server notebook \
+        docs sanitize sanitize-threads fuzz format check-format tidy clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
@@ -23,6 +23,9 @@ packages-ci:
 
 packages-notebooks:
 	@cmake/install_packages.sh packages-notebooks.txt
+
+packages-docs:
+	@cmake/install_packages.sh packages-docs.txt
 
 build: packages  ## configure and build everything
 	@cmake --preset $(PRESET) --log-level=WARNING
@@ -56,6 +59,9 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 	@for name in $(NOTEBOOKS); do echo "$$name"; notebooks/run.sh $$name $(BUILD) out/notebooks || exit; done
 	@find out/notebooks -maxdepth 1 -name '*.png' -exec cp {} docs/images \;
 	@test -f out/search_quality.jsonl || echo "search_quality is left out: run make bench-search first"
+
+docs: packages-docs  ## make a site of the documentation and the headers in build/docs/site; warnings are errors
+	@docs/site/build.sh
 
 sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
