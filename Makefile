@@ -9,8 +9,8 @@ DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
 NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
-.PHONY: help packages packages-ci packages-notebooks packages-docs build demo test bench bench-search bench-server notebook \
-        docs sanitize sanitize-threads fuzz format check-format tidy clean
+.PHONY: help packages packages-ci packages-notebooks packages-docs build demo test \
+        bench bench-search bench-server notebook docs sanitize sanitize-threads fuzz format check-format tidy clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22

@@ -10,8 +10,8 @@ rm -rf "$out"
 mkdir -p "$pages"
 
 # The pages are those of the repository, in the same places, with the files that they link to.
-for path in README.md LICENSE docs datasets notebooks src/protocol/nbvopt/v1/planner.proto \
-            src/python/robot_driver.py src/python/ros_node.py; do
+for path in README.md LICENSE docs datasets examples notebooks \
+            src/protocol/nbvopt/v1/planner.proto; do
   mkdir -p "$pages/$(dirname "$path")"
   ln -s "$root/$path" "$pages/$path"
 done
