@@ -26,7 +26,7 @@ struct QueryAnswer {
   double grid_ms = 0.0;  ///< making the reachable bricks ready
 };
 
-/// One object with the keys that README explains.
+/// One object with the keys that docs/guide/query.md explains.
 Json to_json(const QueryAnswer& answer);
 
 /// A few lines: where to look, what it gains, why, how long the move and the search take.

@@ -1,4 +1,4 @@
-// What a study keeps of a unit of work: docs/studies.md describes both records.
+// What a study keeps of a unit of work: docs/guide/studies.md describes both records.
 #pragma once
 
 #include "study/coordinator.hpp"

@@ -1,4 +1,4 @@
-// A unit of work as a line of the protocol between coordinator and workers (docs/studies.md).
+// A unit of work as a line of the protocol between coordinator and workers (docs/guide/studies.md).
 #pragma once
 
 #include <filesystem>

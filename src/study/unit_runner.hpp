@@ -14,7 +14,7 @@ class UnitRunner {
   explicit UnitRunner(SolverFactory make);
   ~UnitRunner();
 
-  /// The answer, as docs/studies.md describes it. Everything outside its "times" is the same
+  /// The answer, as docs/guide/studies.md describes it. Everything outside its "times" is the same
   /// whenever the same unit is run, unless a time limit bounds it. Throws what planning throws, and
   /// InputError when the map's content is not what the unit says.
   Json run(const WorkUnit& unit);

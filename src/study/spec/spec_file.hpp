@@ -15,10 +15,10 @@ struct DeclaredStudy {
   std::vector<std::string> remarks;
 };
 
-/// Reads a spec (docs/studies.md lists its keys), looks for its maps beside it, draws the starts,
-/// and adds the paper's searches where it does not list them. Throws InputError that names file,
-/// line and key: what is not YAML, an unknown or repeated key, a wrong value, an unknown solver, a
-/// map that is missing, a list that is empty.
+/// Reads a spec (docs/guide/studies.md lists its keys), looks for its maps beside it, draws the
+/// starts, and adds the paper's searches where it does not list them. Throws InputError that names
+/// file, line and key: what is not YAML, an unknown or repeated key, a wrong value, an unknown
+/// solver, a map that is missing, a list that is empty.
 DeclaredStudy read_spec(const std::filesystem::path& path,
                         const SolverFactory& make = make_search_solver);
 
