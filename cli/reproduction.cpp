@@ -12,7 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/folder.hpp"
 #include "core/json.hpp"
-#include "experiment/process_pool.hpp"
+#include "experiment/job_pool.hpp"
 #include "nbvopt/core/error.hpp"
 #include "reproduction/table.hpp"
 #include "reproduction/text.hpp"

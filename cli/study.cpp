@@ -1,7 +1,5 @@
 #include "cli/study.hpp"
 
-#include <unistd.h>
-
 #include <CLI/Option.hpp>
 #include <algorithm>
 #include <array>
@@ -17,12 +15,13 @@
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/json.hpp"
+#include "experiment/worker.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
 #include "study/report/report.hpp"
 #include "study/spec/spec_file.hpp"
 #include "study/study_run.hpp"
-#include "study/worker.hpp"
+#include "study/unit_runner.hpp"
 
 namespace nbvopt {
 namespace {
@@ -76,7 +75,7 @@ study::RunOptions run_options(const StudyOptions& options) {
 }
 
 /// What was done, and how well the workers were used.
-std::string to_text(const study::CoordinatorResult& result, std::size_t workers) {
+std::string to_text(const experiment::RunResult& result, std::size_t workers) {
   if (result.finished == 0) return "nothing to do: every unit has its record\n";
   const double count = static_cast<double>(result.finished);
   const double share = result.busy_ms / (result.wall_ms * static_cast<double>(workers));
@@ -113,19 +112,15 @@ void run(const StudyOptions& options, WorkKind kind) {
     }
     progress.update(++ended);
   };
-  const study::CoordinatorResult result = study::run_study(study, folder, kind, how, on_end);
+  const experiment::RunResult result = study::run_study(study, folder, kind, how, on_end);
   progress.finish();
   if (result.stopped_by) end_by(*result.stopped_by);
   print_answer(to_text(result, std::min(how.workers, std::max<std::size_t>(to_run, 1))));
 }
 
-/// Lines go out on a descriptor of their own: a library that prints must not get between them.
 void run_worker() {
-  const int out = ::dup(STDOUT_FILENO);
-  if (out < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
-    throw Error("the worker's standard output cannot be set aside");
-  }
-  study::run_worker(STDIN_FILENO, out);
+  study::UnitRunner runner(study::make_search_solver);
+  experiment::run_worker([&](const Json& unit) { return runner.run(study::unit_of(unit)); });
 }
 
 void report(const study::StudyFolder& folder) {
@@ -178,7 +173,7 @@ void set_up_study(CLI::App& app) {
       ->add_subcommand("worker",
                        "Answer units of work, a line each, from standard input to standard output")
       ->callback(run_worker);
-  study->footer("Keys of SPEC, records and the workers' protocol: docs/studies.md");
+  study->footer("Keys of SPEC, records and the workers' protocol: docs/guide/studies.md");
 }
 
 }  // namespace nbvopt

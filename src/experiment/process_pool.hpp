@@ -1,49 +1,54 @@
-// Commands as child processes, some at a time.
+// Workers that are processes of this machine: one that hangs can be stopped.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
+#include <csignal>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-namespace nbvopt {
+#include "experiment/pool.hpp"
+#include "experiment/worker_process.hpp"
 
-/// A command to run. It reads nothing and its standard output is dropped.
-struct Job {
-  std::string program;
-  std::vector<std::string> arguments;
-  std::filesystem::path log_file;    ///< takes its standard error, emptied first
-  std::optional<std::size_t> after;  ///< an earlier job that must have succeeded
+namespace nbvopt::experiment {
+
+/// Processes that speak the workers' protocol. While it lives, SIGPIPE is ignored and SIGCHLD is
+/// not.
+class ProcessPool final : public Pool {
+ public:
+  /// Workers are to be started by this command, a program and its arguments. They get the signals
+  /// that the caller's thread has now.
+  ProcessPool(std::vector<std::string> command, std::size_t workers);
+  ProcessPool(const ProcessPool&) = delete;
+  ProcessPool& operator=(const ProcessPool&) = delete;
+  ~ProcessPool() override;
+
+  std::size_t size() const override { return workers_.size(); }
+  void start(std::size_t worker) override;
+  void hand_out(std::size_t worker, const Unit& unit) override;
+  void stop(std::size_t worker) override;
+  std::vector<PoolEvent> wait(Clock::time_point until, int wake) override;
+
+ private:
+  struct Worker {
+    std::unique_ptr<WorkerProcess> process;  ///< null: not started
+    bool has_said_hello = false;
+    Clock::time_point hello_deadline;
+    std::optional<std::string> unit;  ///< the id of the one that it is at
+  };
+
+  void hear(std::size_t index, std::vector<PoolEvent>& events);
+  PoolEvent event_of(std::size_t index, const std::string& line);
+  PoolEvent lose(std::size_t index);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::vector<std::string> command_;
+  std::vector<Worker> workers_;
+  sigset_t signals_{};
+  void (*pipe_before_)(int) = SIG_DFL;
+  void (*child_before_)(int) = SIG_DFL;
+  bool has_heard_a_worker_ = false;  ///< the command does start workers
+  int lost_at_start_ = 0;            ///< workers that ended before their first line, since then
 };
 
-enum class JobStatus {
-  not_run,  ///< the job before it failed, or the pool was stopped
-  succeeded,
-  failed,
-};
-
-/// How a job ended.
-struct JobResult {
-  JobStatus status = JobStatus::not_run;
-  int exit_code = -1;   ///< -1 when a signal ended it, or when it was not run
-  std::string message;  ///< of a failed one: the last line of its log
-};
-
-/// How all of them ended.
-struct PoolResult {
-  std::vector<JobResult> jobs;    ///< one a job, in their order
-  std::optional<int> stopped_by;  ///< SIGINT or SIGTERM; none: all were run that could be
-};
-
-/// Runs the jobs in their order, at most so many at a time; one that fails does not stop the
-/// others. `on_end` is told of each job that has ended, in the order of their ends. SIGINT and
-/// SIGTERM, which are held back meanwhile, stop the running jobs; sent again, they kill them.
-/// To be called by a process's only thread, or with both signals blocked in all others. Throws
-/// InputError when a program cannot be started; then nothing is left running.
-PoolResult run_jobs(std::span<const Job> jobs, std::size_t at_a_time,
-                    const std::function<void(std::size_t job, const JobResult&)>& on_end);
-
-}  // namespace nbvopt
+}  // namespace nbvopt::experiment

@@ -4,8 +4,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "experiment/record_file.hpp"
 #include "nbvopt/core/error.hpp"
-#include "study/record_file.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -21,7 +21,7 @@ Json case_json(const Study& study, std::size_t case_index) {
           {"uncertainty_mode", to_string(study.modes[place.mode])}};
 }
 
-void add_outcome(Json& record, const WorkOutcome& outcome) {
+void add_outcome(Json& record, const experiment::Outcome& outcome) {
   if (outcome.failure.empty()) {
     record.update(outcome.answer);
   } else {
@@ -73,7 +73,7 @@ void read_runs(const Study& study, const StudyFolder& folder, Results& results) 
     unit_of_id.emplace(fingerprints.of_unit(unit_at(study, i)), i);
   }
   std::vector<std::optional<Run>> runs(count);
-  for_each_record(folder.records(), [&](const Json& record) {
+  experiment::for_each_record(folder.records(), [&](const Json& record) {
     const auto unit = unit_of_id.find(record_id(record));
     if (unit == unit_of_id.end()) return;
     const UnitIndex place = unit_at(study, unit->second);
@@ -96,7 +96,7 @@ void read_cases(const Study& study, const StudyFolder& folder, Results& results)
                              .mode = study.modes[place.mode]});
     case_of_id.emplace(fingerprints.of_case(i), i);
   }
-  for_each_record(folder.references(), [&](const Json& record) {
+  experiment::for_each_record(folder.references(), [&](const Json& record) {
     const auto known = case_of_id.find(record_id(record));
     if (known == case_of_id.end() || record.contains("failure")) return;
     results.cases[known->second].reference_gain = record.at("gain").get<double>();
@@ -106,7 +106,7 @@ void read_cases(const Study& study, const StudyFolder& folder, Results& results)
 }  // namespace
 
 Json query_record(const Study& study, const UnitIndex& unit, Fingerprints& fingerprints,
-                  const WorkOutcome& outcome) {
+                  const experiment::Outcome& outcome) {
   Json record{{"schema", kRecordVersion},
               {"unit", fingerprints.of_unit(unit)},
               {"case", fingerprints.of_case(unit.case_index)}};
@@ -119,7 +119,7 @@ Json query_record(const Study& study, const UnitIndex& unit, Fingerprints& finge
 }
 
 Json reference_record(const Study& study, std::size_t case_index, Fingerprints& fingerprints,
-                      const WorkOutcome& outcome) {
+                      const experiment::Outcome& outcome) {
   Json record{{"schema", kRecordVersion}, {"case", fingerprints.of_case(case_index)}};
   record.update(case_json(study, case_index));
   add_outcome(record, outcome);

@@ -1,7 +1,7 @@
 // What a study keeps of a unit of work: docs/guide/studies.md describes both records.
 #pragma once
 
-#include "study/coordinator.hpp"
+#include "experiment/work.hpp"
 #include "study/study.hpp"
 #include "study/study_file.hpp"
 
@@ -11,9 +11,9 @@ namespace nbvopt::study {
 inline constexpr int kRecordVersion = 1;
 
 Json query_record(const Study& study, const UnitIndex& unit, Fingerprints& fingerprints,
-                  const WorkOutcome& outcome);
+                  const experiment::Outcome& outcome);
 Json reference_record(const Study& study, std::size_t case_index, Fingerprints& fingerprints,
-                      const WorkOutcome& outcome);
+                      const experiment::Outcome& outcome);
 
 /// The unit's fingerprint, or the case's. Throws InputError for a record of another schema.
 std::string record_id(const Json& record);

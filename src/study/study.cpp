@@ -1,7 +1,7 @@
 #include "study/study.hpp"
 
+#include "experiment/digest.hpp"
 #include "nbvopt/core/version.hpp"
-#include "study/digest.hpp"
 #include "study/unit_message.hpp"
 
 namespace nbvopt::study {
@@ -54,7 +54,7 @@ UnitIndex unit_at(const Study& study, std::size_t index) {
 }
 
 Fingerprints::Fingerprints(const Study& study)
-    : study_(study), robot_(digest(version() + to_yaml(study.robot))) {}
+    : study_(study), robot_(experiment::digest(version() + to_yaml(study.robot))) {}
 
 const std::string& Fingerprints::of_case(std::size_t case_index) {
   if (last_case_ == case_index) return last_;
@@ -65,7 +65,7 @@ const std::string& Fingerprints::of_case(std::size_t case_index) {
                       {"start", to_json(map.starts[place.start])},
                       {"motion_time_s", study_.motion_times_s[place.motion_time]},
                       {"uncertainty_mode", to_string(study_.modes[place.mode])}};
-  last_ = digest(identity.dump());
+  last_ = experiment::digest(identity.dump());
   last_case_ = case_index;
   return last_;
 }
@@ -75,7 +75,7 @@ std::string Fingerprints::of_unit(const UnitIndex& unit) {
                       {"search", to_json(study_.searches[unit.search].search)},
                       {"budget", to_json(study_.budgets[unit.budget])},
                       {"seed", study_.seeds[unit.seed]}};
-  return digest(identity.dump());
+  return experiment::digest(identity.dump());
 }
 
 }  // namespace nbvopt::study

@@ -5,23 +5,21 @@
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
+#include "experiment/process_pool.hpp"
+#include "experiment/record_file.hpp"
 #include "study/record.hpp"
-#include "study/record_file.hpp"
 
 namespace nbvopt::study {
 namespace {
 
 /// The units of one kind. A reference is one of a case.
-class Work {
+class Work final : public experiment::Work {
  public:
-  Work(const Study& study, WorkKind kind) : study_(study), kind_(kind), fingerprints_(study) {}
+  Work(const Study& study, const StudyFolder& folder, WorkKind kind)
+      : study_(study), folder_(folder), kind_(kind), fingerprints_(study) {}
 
   std::size_t count() const {
     return kind_ == WorkKind::query ? unit_count(study_) : case_count(study_);
-  }
-
-  UnitIndex at(std::size_t index) const {
-    return kind_ == WorkKind::query ? unit_at(study_, index) : UnitIndex{.case_index = index};
   }
 
   std::string id(std::size_t index) {
@@ -29,24 +27,24 @@ class Work {
                                     : fingerprints_.of_case(index);
   }
 
-  WorkUnit unit(std::size_t index, const StudyFolder& folder) {
+  experiment::Unit unit(std::size_t index) override {
     const UnitIndex place = at(index);
     const CaseIndex asked = case_at(study_, place.case_index);
     const StudyMap& map = study_.maps[asked.map];
-    return {.id = id(index),
-            .kind = kind_,
-            .map = map.file,
-            .map_digest = map.digest,
-            .robot = folder.robot(),
-            .start = map.starts[asked.start],
-            .motion_time_s = study_.motion_times_s[asked.motion_time],
-            .mode = study_.modes[asked.mode],
-            .search = study_.searches[place.search].search,
-            .budget = study_.budgets[place.budget],
-            .seed = study_.seeds[place.seed]};
+    return message_of({.id = id(index),
+                       .kind = kind_,
+                       .map = map.file,
+                       .map_digest = map.digest,
+                       .robot = folder_.robot(),
+                       .start = map.starts[asked.start],
+                       .motion_time_s = study_.motion_times_s[asked.motion_time],
+                       .mode = study_.modes[asked.mode],
+                       .search = study_.searches[place.search].search,
+                       .budget = study_.budgets[place.budget],
+                       .seed = study_.seeds[place.seed]});
   }
 
-  Json record(std::size_t index, const WorkOutcome& outcome) {
+  Json record(std::size_t index, const experiment::Outcome& outcome) override {
     const UnitIndex place = at(index);
     return kind_ == WorkKind::query
                ? query_record(study_, place, fingerprints_, outcome)
@@ -54,7 +52,12 @@ class Work {
   }
 
  private:
+  UnitIndex at(std::size_t index) const {
+    return kind_ == WorkKind::query ? unit_at(study_, index) : UnitIndex{.case_index = index};
+  }
+
   const Study& study_;
+  const StudyFolder& folder_;
   WorkKind kind_;
   Fingerprints fingerprints_;
 };
@@ -66,7 +69,7 @@ std::filesystem::path record_path(const StudyFolder& folder, WorkKind kind) {
 /// The fingerprints of what has a record, and whether it has failed. A later record wins.
 std::unordered_map<std::string, bool> finished_units(const std::filesystem::path& path) {
   std::unordered_map<std::string, bool> finished;
-  for_each_record(path, [&finished](const Json& record) {
+  experiment::for_each_record(path, [&finished](const Json& record) {
     finished[record_id(record)] = record.contains("failure");
   });
   return finished;
@@ -76,7 +79,7 @@ std::unordered_map<std::string, bool> finished_units(const std::filesystem::path
 
 WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind) {
   const auto finished = finished_units(record_path(folder, kind));
-  Work work(study, kind);
+  Work work(study, folder, kind);
   WorkCount count{.total = work.count()};
   for (std::size_t i = 0; i < count.total; ++i) {
     const auto unit = finished.find(work.id(i));
@@ -87,14 +90,14 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
   return count;
 }
 
-CoordinatorResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
-                            const RunOptions& options,
-                            const std::function<void(const Json& record)>& on_end) {
+experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
+                                const RunOptions& options,
+                                const std::function<void(const Json& record)>& on_end) {
   create_folder(folder.root);
   const FileLock lock(folder.study(), "run writes this study");
   write_study(study, folder);
-  RecordFile records(record_path(folder, kind));
-  Work work(study, kind);
+  experiment::RecordFile records(record_path(folder, kind));
+  Work work(study, folder, kind);
   std::vector<std::size_t> to_do;
   {
     const auto finished = finished_units(record_path(folder, kind));
@@ -103,17 +106,10 @@ CoordinatorResult run_study(const Study& study, const StudyFolder& folder, WorkK
       if (unit == finished.end() || (unit->second && options.retry_failed)) to_do.push_back(i);
     }
   }
-  const CoordinatorOptions coordination{
-      .worker_command = options.worker_command,
-      .workers = options.workers,
-      .timeout_s = kind == WorkKind::query ? study.unit_timeout_s : study.reference_timeout_s};
-  return run_units(
-      to_do.size(), [&](std::size_t i) { return work.unit(to_do[i], folder); }, coordination,
-      [&](std::size_t i, const WorkOutcome& outcome) {
-        const Json record = work.record(to_do[i], outcome);
-        records.append(record);
-        on_end(record);
-      });
+  experiment::ProcessPool pool(options.worker_command, options.workers);
+  return experiment::run_units(
+      work, to_do, kind == WorkKind::query ? study.unit_timeout_s : study.reference_timeout_s, pool,
+      records, on_end);
 }
 
 }  // namespace nbvopt::study

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "study/coordinator.hpp"
+#include "experiment/coordinator.hpp"
 #include "study/study_file.hpp"
 
 namespace nbvopt::study {
@@ -27,9 +27,10 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 
 /// Writes the study into its folder and runs what has no record there yet; every record is in its
 /// file before the next. `on_end` is told of each unit that has ended, with its record. Throws
-/// InputError when the folder is used by another run or cannot be written, and as run_units().
-CoordinatorResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
-                            const RunOptions& options,
-                            const std::function<void(const Json& record)>& on_end);
+/// InputError when the folder is used by another run or cannot be written, and as
+/// experiment::run_units().
+experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
+                                const RunOptions& options,
+                                const std::function<void(const Json& record)>& on_end);
 
 }  // namespace nbvopt::study

@@ -1,6 +1,7 @@
 #include "study/unit_message.hpp"
 
 #include <array>
+#include <utility>
 #include <variant>
 
 #include "nbvopt/core/error.hpp"
@@ -19,8 +20,8 @@ Limit limit_of(const Json& json) {
   return json.is_null() ? Limit{} : json.get<Limit>();
 }
 
-WorkUnit unit_of(const Json& json) {
-  WorkUnit unit{.id = json.at("unit").get<std::string>(),
+WorkUnit read_unit(const Json& json) {
+  WorkUnit unit{.id = {},
                 .kind = WorkKind::query,
                 .map = json.at("map").get<std::string>(),
                 .map_digest = json.at("map_digest").get<std::string>(),
@@ -96,10 +97,9 @@ UncertaintyMode mode_of(const std::string& name) {
   return sensor.uncertainty_mode;
 }
 
-std::string to_line(const WorkUnit& unit) {
+experiment::Unit message_of(const WorkUnit& unit) {
   const bool is_query = unit.kind == WorkKind::query;
-  Json json{{"unit", unit.id},
-            {"kind", is_query ? kQuery : kReference},
+  Json json{{"kind", is_query ? kQuery : kReference},
             {"map", unit.map.string()},
             {"map_digest", unit.map_digest},
             {"robot", unit.robot.string()},
@@ -111,12 +111,12 @@ std::string to_line(const WorkUnit& unit) {
     json.update(to_json(unit.budget));
     json["seed"] = unit.seed;
   }
-  return json.dump();
+  return {unit.id, std::move(json)};
 }
 
-WorkUnit parse_work_unit(std::string_view line) {
+WorkUnit unit_of(const Json& payload) {
   try {
-    return unit_of(Json::parse(line));
+    return read_unit(payload);
   } catch (const Json::exception& error) {
     throw InputError(std::string("unit: ") + error.what());
   }

@@ -1,17 +1,14 @@
-// A unit of work as a line of the protocol between coordinator and workers (docs/guide/studies.md).
+// A unit of work as the workers' protocol has it (docs/guide/studies.md).
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "core/json.hpp"
+#include "experiment/work.hpp"
 #include "study/study.hpp"
 
 namespace nbvopt::study {
-
-/// The version of the protocol that workers say hello with.
-inline constexpr int kProtocolVersion = 1;
 
 enum class WorkKind {
   query,      ///< what a search finds
@@ -20,7 +17,7 @@ enum class WorkKind {
 
 /// All that a worker needs to know.
 struct WorkUnit {
-  std::string id;
+  std::string id;  ///< empty on the worker's side
   WorkKind kind = WorkKind::query;
   std::filesystem::path map;
   std::string map_digest;  ///< of the map's content, which must not have changed
@@ -43,10 +40,9 @@ Search search_of(const Json& json);
 Budget budget_of(const Json& json);
 UncertaintyMode mode_of(const std::string& name);
 
-/// One line, without its end.
-std::string to_line(const WorkUnit& unit);
+experiment::Unit message_of(const WorkUnit& unit);
 
-/// Throws InputError that says what is wrong with the line.
-WorkUnit parse_work_unit(std::string_view line);
+/// The way back from its payload, which has no id. Throws InputError that says what is wrong.
+WorkUnit unit_of(const Json& payload);
 
 }  // namespace nbvopt::study

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/planner.hpp"
 #include "planner/field_table.hpp"
-#include "study/digest.hpp"
 #include "study/reference_search.hpp"
 #include "study/spec/start_sampling.hpp"
 
@@ -70,7 +70,7 @@ class UnitRunner::Scene {
   explicit Scene(const WorkUnit& unit)
       : map_file_(unit.map),
         robot_file_(unit.robot),
-        map_digest_(file_digest(unit.map)),
+        map_digest_(experiment::file_digest(unit.map)),
         robot_(read_robot(unit.robot)),
         map_(read_map(unit.map)),
         grid_(VoxelGrid::lazy(map_)) {}

@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "study/worker.hpp"
+#include "experiment/worker.hpp"
+#include "study/unit_runner.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -37,6 +38,8 @@ class OddSolver final : public Solver {
 
 int main() {
   using namespace nbvopt::study;
-  run_worker(STDIN_FILENO, STDOUT_FILENO,
-             [](const Search& search) { return std::make_unique<OddSolver>(search); });
+  UnitRunner runner([](const Search& search) { return std::make_unique<OddSolver>(search); });
+  nbvopt::experiment::run_worker(STDIN_FILENO, STDOUT_FILENO, [&](const nbvopt::Json& unit) {
+    return runner.run(unit_of(unit));
+  });
 }

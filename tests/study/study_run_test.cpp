@@ -6,9 +6,9 @@
 #include <map>
 
 #include "core/text_file.hpp"
+#include "experiment/record_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
-#include "study/record_file.hpp"
 #include "study/study_fixture.hpp"
 #include "support/error_message.hpp"
 
@@ -23,8 +23,8 @@ using Records = std::map<std::string, Json>;
 
 class StudyRun : public testing::Test {
  protected:
-  CoordinatorResult run(const Study& study, const std::string& name, std::size_t workers = 2,
-                        WorkKind kind = WorkKind::query, bool retry_failed = false) {
+  experiment::RunResult run(const Study& study, const std::string& name, std::size_t workers = 2,
+                            WorkKind kind = WorkKind::query, bool retry_failed = false) {
     return run_study(
         study, folder(name), kind,
         {.worker_command = {NBVOPT_ODD_WORKER}, .workers = workers, .retry_failed = retry_failed},
@@ -35,7 +35,7 @@ class StudyRun : public testing::Test {
 
   static Records records(const std::filesystem::path& file) {
     Records result;
-    for_each_record(file, [&](const Json& record) {
+    experiment::for_each_record(file, [&](const Json& record) {
       Json timeless = record;
       timeless.erase("times");
       result[record_id(record)] = timeless;
@@ -60,7 +60,7 @@ class StudyRun : public testing::Test {
 
 TEST_F(StudyRun, RecordsEveryUnit) {
   const Study study = files.read(test::kSmallSpec);
-  const CoordinatorResult result = run(study, "out");
+  const experiment::RunResult result = run(study, "out");
   EXPECT_EQ(result.finished, 36U);
   EXPECT_EQ(result.failed, 0U);
   EXPECT_EQ(records(folder("out").records()).size(), 36U);
@@ -115,7 +115,7 @@ TEST_F(StudyRun, GoesOnAfterATornLine) {
   run(study, "torn");
   const std::string file = folder("torn").records().string();
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-  const CoordinatorResult rest = run(study, "torn");
+  const experiment::RunResult rest = run(study, "torn");
   EXPECT_GT(rest.finished, 10U);
   EXPECT_LT(rest.finished, 36U);
   EXPECT_EQ(records(folder("torn").records()), records(folder("whole").records()));
@@ -131,7 +131,7 @@ TEST_F(StudyRun, GrowsWithItsSpec) {
 
 TEST_F(StudyRun, ASolverThatThrowsCostsItsUnits) {
   const Study study = grids("[0.11, 0.3]");
-  const CoordinatorResult result = run(study, "out");
+  const experiment::RunResult result = run(study, "out");
   EXPECT_EQ(result.finished, 12U);
   EXPECT_EQ(result.failed, 2U);
   for (const auto& [id, record] : records(folder("out").records())) {
@@ -142,7 +142,7 @@ TEST_F(StudyRun, ASolverThatThrowsCostsItsUnits) {
 
 TEST_F(StudyRun, ASolverThatHangsIsStopped) {
   const Study study = grids("[0.12, 0.3]");
-  const CoordinatorResult result = run(study, "out");
+  const experiment::RunResult result = run(study, "out");
   EXPECT_EQ(result.finished, 12U);
   EXPECT_EQ(result.failed, 2U);
   const Results results = read_results(study, folder("out"));
@@ -151,7 +151,7 @@ TEST_F(StudyRun, ASolverThatHangsIsStopped) {
 
 TEST_F(StudyRun, ASolverThatEndsItsWorkerCostsItsUnits) {
   const Study study = grids("[0.13, 0.3]");
-  const CoordinatorResult result = run(study, "out");
+  const experiment::RunResult result = run(study, "out");
   EXPECT_EQ(result.finished, 12U);
   EXPECT_EQ(result.failed, 2U);
   EXPECT_EQ(read_results(study, folder("out")).runs[0].failure, "its worker ended, twice: Aborted");
@@ -212,7 +212,7 @@ TEST_F(StudyRun, AUnitWhoseWorkerWasKilledOnceIsRunAgain) {
   const std::string mark = files.folder / "mark";
   const std::string script = "test -e '" + mark + "' || { : > '" + mark + "'; kill -9 $$; }; " +
                              R"(echo "{\"unit\":\"$id\",\"failure\":\"tired\",\"busy_ms\":1}")";
-  const CoordinatorResult result =
+  const experiment::RunResult result =
       run_study(study, folder("out"), WorkKind::query,
                 {.worker_command = shell_worker(script), .workers = 1}, on_end);
   EXPECT_EQ(result.finished, unit_count(study));
@@ -223,7 +223,7 @@ TEST_F(StudyRun, AUnitWhoseWorkerWasKilledOnceIsRunAgain) {
 
 TEST_F(StudyRun, AWorkerThatTurnsSilentIsReplaced) {
   const Study study = grids("[0.3]");
-  const CoordinatorResult result =
+  const experiment::RunResult result =
       run_study(study, folder("out"), WorkKind::query,
                 {.worker_command = shell_worker("exec 1>&-; sleep 100"), .workers = 2}, on_end);
   EXPECT_EQ(result.failed, unit_count(study));
@@ -275,7 +275,7 @@ TEST_F(StudyRun, AStopLosesNothing) {
   on_end = [&](const Json&) {
     if (++ended == 5) std::raise(SIGINT);  // held back by the coordinator
   };
-  const CoordinatorResult stopped = run(study, "stopped");
+  const experiment::RunResult stopped = run(study, "stopped");
   EXPECT_EQ(stopped.stopped_by, SIGINT);
   EXPECT_LT(stopped.finished, 36U);
   EXPECT_EQ(records(folder("stopped").records()).size(), stopped.finished);

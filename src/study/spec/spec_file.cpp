@@ -8,10 +8,10 @@
 
 #include "core/number.hpp"
 #include "core/text_file.hpp"
+#include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "planner/yaml_value.hpp"
-#include "study/digest.hpp"
 #include "study/spec/spec_block.hpp"
 #include "study/spec/spec_searches.hpp"
 #include "study/spec/start_sampling.hpp"
@@ -191,7 +191,7 @@ void SpecReader::add_maps(const SpecValue& pattern, bool is_optional) {
     if (std::ranges::find(study().maps, name, &StudyMap::name) != study().maps.end()) {
       pattern.refuse("names a second map called " + name + ", rename one");
     }
-    const std::string content = file_digest(file);
+    const std::string content = experiment::file_digest(file);
     const auto twin = std::ranges::find(study().maps, content, &StudyMap::digest);
     if (twin != study().maps.end()) {
       pattern.refuse("names " + name + ", which is the same map as " + twin->name + ", keep one");

@@ -1,4 +1,4 @@
-#include "experiment/process_pool.hpp"
+#include "experiment/job_pool.hpp"
 
 #include <gmock/gmock.h>
 

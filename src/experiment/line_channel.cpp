@@ -1,4 +1,4 @@
-#include "study/line_channel.hpp"
+#include "experiment/line_channel.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 
 bool LineReader::read_some() {
   std::array<char, 65536> buffer;
@@ -50,4 +50,4 @@ void write_line(int descriptor, std::string_view line) {
   }
 }
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
-#include "study/line_channel.hpp"
+#include "experiment/line_channel.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 
 /// Killed, if need be, when this goes.
 class WorkerProcess {
@@ -41,4 +41,4 @@ class WorkerProcess {
   bool has_ended_ = false;
 };
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

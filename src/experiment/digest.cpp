@@ -1,4 +1,4 @@
-#include "study/digest.hpp"
+#include "experiment/digest.hpp"
 
 #include <xxhash.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/text_file.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 
 std::string digest(std::string_view bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
@@ -20,4 +20,4 @@ std::string digest(std::string_view bytes) {
 
 std::string file_digest(const std::filesystem::path& path) { return digest(read_text_file(path)); }
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

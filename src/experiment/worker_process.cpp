@@ -1,4 +1,4 @@
-#include "study/worker_process.hpp"
+#include "experiment/worker_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -13,7 +13,7 @@
 
 #include "nbvopt/core/error.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 namespace {
 
 std::pair<Descriptor, Descriptor> make_pipe() {
@@ -77,4 +77,4 @@ std::string WorkerProcess::end() {
   return "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

@@ -1,4 +1,4 @@
-#include "study/record_file.hpp"
+#include "experiment/record_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,10 +11,10 @@
 #include <system_error>
 #include <utility>
 
+#include "experiment/line_channel.hpp"
 #include "nbvopt/core/error.hpp"
-#include "study/line_channel.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 namespace {
 
 /// Where the last line that has an end ends.
@@ -78,4 +78,4 @@ void RecordFile::fail(int error) const {
                    ": cannot be written: " + std::generic_category().message(error));
 }
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

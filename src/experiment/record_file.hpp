@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "core/descriptor.hpp"
-#include "study/unit_message.hpp"
+#include "core/json.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 
 /// Calls visit(record) for every line of the file, which may be missing; a last line without an end
 /// is left out. Throws InputError that names file and line of what is no JSON object, and of what
@@ -35,4 +35,4 @@ class RecordFile {
   std::int64_t size_ = 0;  ///< up to the end of the last whole line
 };
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

@@ -1,4 +1,4 @@
-#include "study/record_file.hpp"
+#include "experiment/record_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -10,7 +10,7 @@
 #include "support/error_message.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 namespace {
 
 using testing::AllOf;
@@ -88,4 +88,4 @@ TEST(RecordFile, EndsWithAWholeRecordWhenTheDiskIsFull) {
 }
 
 }  // namespace
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

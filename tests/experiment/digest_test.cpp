@@ -1,11 +1,11 @@
-#include "study/digest.hpp"
+#include "experiment/digest.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 namespace {
 
 TEST(Digest, IsThatOfTheReferenceImplementation) {
@@ -22,4 +22,4 @@ TEST(Digest, OfAFileIsThatOfItsContent) {
 }
 
 }  // namespace
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

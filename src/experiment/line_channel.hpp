@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace nbvopt::study {
+namespace nbvopt::experiment {
 
 /// Takes a descriptor's bytes apart into lines. The descriptor stays the caller's.
 class LineReader {
@@ -30,4 +30,4 @@ class LineReader {
 /// Writes the line and its end. Throws std::system_error when that fails; SIGPIPE must be ignored.
 void write_line(int descriptor, std::string_view line);
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt::experiment

@@ -1,0 +1,51 @@
+// Workers as the coordinator sees them, whatever they are and wherever they run.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "experiment/work.hpp"
+
+namespace nbvopt::experiment {
+
+/// What has become of a worker.
+struct PoolEvent {
+  enum class Kind {
+    ready,     ///< it was started and takes a unit now
+    answered,  ///< its unit has ended, and it takes another
+    lost,      ///< it has ended by itself, or another has ended it; it can be started again
+  };
+
+  std::size_t worker = 0;
+  Kind kind = Kind::ready;
+  Outcome outcome = {};  ///< of the unit that was answered
+  std::string how = {};  ///< a lost one ended
+};
+
+/// Workers, numbered from 0, that take one unit at a time each. None of them is started at first.
+class Pool {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Leaves nothing running.
+  virtual ~Pool() = default;
+
+  virtual std::size_t size() const = 0;
+
+  /// Starts a worker that has not been, was stopped or lost. Throws InputError when it cannot be.
+  virtual void start(std::size_t worker) = 0;
+
+  /// Gives a unit to a worker that has nothing to do. One that has ended is told of by wait().
+  virtual void hand_out(std::size_t worker, const Unit& unit) = 0;
+
+  /// Ends a worker with the unit that it is at.
+  virtual void stop(std::size_t worker) = 0;
+
+  /// Waits for events, until this time and no longer than until the descriptor `wake` is readable.
+  /// Throws InputError for what no worker would do.
+  virtual std::vector<PoolEvent> wait(Clock::time_point until, int wake) = 0;
+};
+
+}  // namespace nbvopt::experiment
