@@ -16,7 +16,7 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
       .add_option_function<std::string>(
           "--start",
           [&options](const std::string& text) {
-            options.start = numbers_argument("--start", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
+            options.drive.start = numbers_argument("--start", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
           },
           "where it starts to explore: metres and radians; z is the floor's when left out")
       ->type_name("X,Y[,Z],YAW");
@@ -26,7 +26,7 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           [&options](const std::vector<std::string>& goals) {
             for (const std::string& goal : goals) {
               const auto numbers = numbers_argument("--goal", goal, {2}, "X,Y");
-              options.goals_m.emplace_back(numbers[0], numbers[1]);
+              options.drive.goals_map_m.emplace_back(numbers[0], numbers[1]);
             }
           },
           "drive here instead of exploring; several are visited in turn")
@@ -35,9 +35,9 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
       .add_option("--trajectory", options.trajectory_file,
                   "replay this drive, a CSV file that --trajectory-out wrote")
       ->type_name("FILE");
-  add_number(simulate, "--lidar-range", options.exploration.mapping_range_m, "M",
+  add_number(simulate, "--lidar-range", options.drive.exploration.mapping_range_m, "M",
              "beams are cropped here for the map in the plane");
-  add_number(simulate, "--duration-max", options.exploration.duration_max_s, "SECONDS",
+  add_number(simulate, "--duration-max", options.drive.exploration.duration_max_s, "SECONDS",
              "end the exploration then");
   simulate.add_flag("--explore-only", options.is_exploring_only, "drive and leave the camera off");
 }
@@ -46,22 +46,24 @@ void add_camera(CLI::App& simulate, SimulateOptions& options) {
   simulate.option_defaults()->group("What the camera does");
   std::string modes;
   for (const std::string& name : camera_mode_names()) modes += (modes.empty() ? "" : ", ") + name;
-  simulate.add_option("--mode", options.mode, "how the next view is chosen: " + modes)
+  simulate.add_option("--mode", options.simulation.mode, "how the next view is chosen: " + modes)
       ->type_name("NAME")
       ->capture_default_str();
-  add_number(simulate, "--motion-time", options.episode.motion_time_s, "SECONDS",
+  add_number(simulate, "--motion-time", options.simulation.episode.motion_time_s, "SECONDS",
              "from one capture to the next; joints move within it");
-  add_number(simulate, "--pan", options.episode.start_joints.pan_rad, "RAD", "pan at the start");
-  add_number(simulate, "--tilt", options.episode.start_joints.tilt_rad, "RAD", "tilt at the start");
-  add_number(simulate, "--height", options.episode.start_joints.height_m, "M",
+  add_number(simulate, "--pan", options.simulation.episode.start_joints.pan_rad, "RAD",
+             "pan at the start");
+  add_number(simulate, "--tilt", options.simulation.episode.start_joints.tilt_rad, "RAD",
+             "tilt at the start");
+  add_number(simulate, "--height", options.simulation.episode.start_joints.height_m, "M",
              "height at the start, above the base");
-  add_number(simulate, "--capture-hz", options.episode.capture_hz, "HZ",
+  add_number(simulate, "--capture-hz", options.simulation.episode.capture_hz, "HZ",
              "also capture while joints move, so often [no]");
-  simulate.add_flag("--charge-computing", options.episode.charge_computing,
+  simulate.add_flag("--charge-computing", options.simulation.episode.charge_computing,
                     "let the base drive on while the computer maps and plans");
-  add_number(simulate, "--range-noise", options.episode.range_noise_m, "M",
+  add_number(simulate, "--range-noise", options.simulation.episode.range_noise_m, "M",
              "standard deviation of the camera's ranges");
-  add_number(simulate, "--resolution", options.resolution_m, "M", "of the map's voxels");
+  add_number(simulate, "--resolution", options.simulation.resolution_m, "M", "of the map's voxels");
   add_whole_number(simulate, "--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of exploration, noise, and modes that draw random numbers");
   add_robot_arguments(simulate, options.robot);
@@ -93,10 +95,11 @@ void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
 }
 
 void check(const SimulateOptions& options) {
-  if (options.trajectory_file.empty() && options.start.empty()) {
+  if (options.trajectory_file.empty() && options.drive.start.empty()) {
     throw UsageError("give --start X,Y,YAW to explore from, or --trajectory FILE to replay");
   }
-  if (!options.trajectory_file.empty() && !(options.start.empty() && options.goals_m.empty())) {
+  if (!options.trajectory_file.empty() &&
+      !(options.drive.start.empty() && options.drive.goals_map_m.empty())) {
     throw UsageError("--trajectory holds the whole drive: leave --start and --goal out");
   }
   if (options.is_exploring_only && !options.trajectory_file.empty()) {

@@ -4,26 +4,20 @@
 #include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "cli/options/view_arguments.hpp"
 #include "cli/options/world_arguments.hpp"
-#include "nbvopt/sim/episode.hpp"
-#include "nbvopt/sim/exploration.hpp"
+#include "sim/simulation.hpp"
 
 namespace nbvopt {
 
 struct SimulateOptions {
   WorldArguments world;
   RobotArguments robot;
-  std::vector<double> start;  ///< X,Y,YAW or X,Y,Z,YAW; empty: none given
-  std::vector<Eigen::Vector2d> goals_m;
+  DriveOptions drive;           ///< without a start: none given
   std::string trajectory_file;  ///< empty: the robot drives by itself
-  ExplorationOptions exploration;
   bool is_exploring_only = false;
-  std::string mode = "auto";
-  EpisodeOptions episode;
-  double resolution_m = 0.1;
+  SimulationOptions simulation;
   std::int64_t seed = 1;
   bool json = false;
   bool is_silent = false;

@@ -2,41 +2,11 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <cstdlib>
-#include <optional>
-#include <string_view>
+#include <utility>
 
 #include "cli/terminal/output.hpp"
 
 namespace nbvopt {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Where the user's programs keep what they can make again (XDG Base Directory Specification).
-std::optional<fs::path> user_cache_folder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
-    return fs::path(cache) / "nbvopt";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return fs::path(home) / ".cache" / "nbvopt";
-  }
-  return std::nullopt;
-}
-
-/// The folders of a colon-separated variable, as Gazebo's own.
-void append_paths(const char* variable, std::vector<fs::path>& paths) {
-  const char* value = std::getenv(variable);
-  if (value == nullptr) return;
-  std::string_view rest = value;
-  while (!rest.empty()) {
-    const std::size_t end = rest.find(':');
-    if (end != 0) paths.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
-}
-
-}  // namespace
 
 void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
   app.add_option("WORLD", arguments.world_file,
@@ -63,7 +33,9 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
 World read_world(const WorldArguments& arguments) {
   WorldOptions options;
   options.model_paths.assign(arguments.model_paths.begin(), arguments.model_paths.end());
-  append_paths("GAZEBO_MODEL_PATH", options.model_paths);
+  for (std::filesystem::path& path : gazebo_model_paths()) {
+    options.model_paths.push_back(std::move(path));
+  }
   options.geometry =
       arguments.geometry == "collision" ? WorldGeometry::collision : WorldGeometry::visual;
   options.is_strict = arguments.is_strict;
@@ -72,7 +44,7 @@ World read_world(const WorldArguments& arguments) {
   } else if (arguments.is_cached) {
     options.cache_folder = user_cache_folder();
   }
-  World world = read_world(fs::path(arguments.world_file), options);
+  World world = read_world(std::filesystem::path(arguments.world_file), options);
   for (const std::string& warning : world.warnings) print_message("warning: " + warning);
   return world;
 }

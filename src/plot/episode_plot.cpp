@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
-#include "core/atomic_file.hpp"
+#include "core/number.hpp"
 #include "plot/axis.hpp"
 #include "plot/style.hpp"
 #include "plot/top_view.hpp"
@@ -19,6 +20,14 @@ constexpr double kTop = 84.0;
 constexpr double kLegendHeight = 100.0;  ///< with the axis below the map
 constexpr double kChartHeight = 150.0;
 constexpr double kChartAxisHeight = 64.0;
+
+std::string subtitle(const EpisodeReport& report) {
+  return std::filesystem::path(report.world).filename().string() + ", mode " + report.mode +
+         ", t = " + format_number(report.motion_time_s) +
+         " s: " + std::to_string(report.summary.captures) + " captures, " +
+         std::to_string(report.summary.voxels) + " voxels with u < 1, information " +
+         std::to_string(std::llround(report.summary.information));
+}
 
 /// The known part of the map with a margin, as wide as the page, not higher than it is wide.
 TopView top_view(const UncertaintyMap& map) {
@@ -92,12 +101,12 @@ void draw_information(Canvas& canvas, const Rectangle& panel,
 
 }  // namespace
 
-void write_episode_plot(const EpisodePlotInput& input, const std::filesystem::path& path) {
+std::string episode_plot_png(const EpisodePlotInput& input) {
   const TopView view = top_view(input.map);
   const double below_map = view.panel.bottom() + kLegendHeight;
   Canvas canvas(kPageWidth, below_map + kChartHeight + kChartAxisHeight, kPixelsPerPoint);
   canvas.text({24.0, 40.0}, "What the robot has mapped", style::title());
-  canvas.text({24.0, 62.0}, input.subtitle, style::note());
+  canvas.text({24.0, 62.0}, subtitle(input.report), style::note());
 
   const auto grid = VoxelGrid::lazy(input.map);
   const Capture& last = input.captures.back();
@@ -116,7 +125,7 @@ void write_episode_plot(const EpisodePlotInput& input, const std::filesystem::pa
   draw_legend(canvas, view.panel.bottom() + 64.0);
   draw_information(canvas, {kLeft, below_map, kPageWidth - kLeft - kRight, kChartHeight},
                    input.captures);
-  write_file_atomically(path, canvas.png());
+  return canvas.png();
 }
 
 }  // namespace nbvopt

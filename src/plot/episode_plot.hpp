@@ -2,13 +2,13 @@
 // camera looked.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/episode.hpp"
+#include "sim/episode_output.hpp"
 
 namespace nbvopt {
 
@@ -16,11 +16,10 @@ struct EpisodePlotInput {
   const UncertaintyMap& map;
   const Robot& robot;
   const std::vector<Capture>& captures;  ///< at least one
-  std::string subtitle;
+  const EpisodeReport& report;
 };
 
-/// Draws the picture and writes it as PNG, whole or not at all. Throws InputError when the file
-/// cannot be written.
-void write_episode_plot(const EpisodePlotInput& input, const std::filesystem::path& path);
+/// Draws the picture: the bytes of a PNG file.
+std::string episode_plot_png(const EpisodePlotInput& input);
 
 }  // namespace nbvopt

@@ -109,7 +109,7 @@ void draw_legend(Canvas& canvas, const PlotInput& input) {
 
 }  // namespace
 
-void write_plot(const PlotInput& input, const std::filesystem::path& path) {
+std::string plot_png(const PlotInput& input) {
   Canvas canvas(kPageWidth, kPageHeight, kPixelsPerPoint);
   const MapSlice slice = map_slice(input);
   draw_title(canvas, input, slice);
@@ -124,7 +124,11 @@ void write_plot(const PlotInput& input, const std::filesystem::path& path) {
                   decimal(input.landscape.height_m, 3) + " m",
               style::heading());
   draw_landscape(canvas, kLandscapePanel, input);
-  write_file_atomically(path, canvas.png());
+  return canvas.png();
+}
+
+void write_plot(const PlotInput& input, const std::filesystem::path& path) {
+  write_file_atomically(path, plot_png(input));
 }
 
 }  // namespace nbvopt

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "nbvopt/gain/view_evaluator.hpp"
@@ -24,8 +25,10 @@ struct PlotInput {
   std::vector<double> candidate_pans_rad = {};  ///< the pans of the paper's grid
 };
 
-/// Draws the picture and writes it as PNG, whole or not at all. Throws InputError when the file
-/// cannot be written.
+/// Draws the picture: the bytes of a PNG file.
+std::string plot_png(const PlotInput& input);
+
+/// The same as a file, whole or not at all. Throws InputError when it cannot be written.
 void write_plot(const PlotInput& input, const std::filesystem::path& path);
 
 }  // namespace nbvopt

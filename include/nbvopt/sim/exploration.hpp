@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/sim/occupancy_grid.hpp"
@@ -38,6 +39,7 @@ enum class ExplorationStatus {
   complete,    ///< no frontier is left that can be reached
   time_limit,  ///< duration_max_s came first
 };
+std::string to_string(ExplorationStatus status);
 
 /// A drive and the plane map that it made.
 struct Exploration {

@@ -40,4 +40,11 @@ struct World {
 /// when strict, the first part that is missing.
 World read_world(const std::filesystem::path& path, const WorldOptions& options);
 
+/// The folders of GAZEBO_MODEL_PATH, where Gazebo itself looks for models.
+std::vector<std::filesystem::path> gazebo_model_paths();
+
+/// Where the user's programs keep what they can make again (XDG Base Directory Specification);
+/// none where the environment names no place.
+std::optional<std::filesystem::path> user_cache_folder();
+
 }  // namespace nbvopt

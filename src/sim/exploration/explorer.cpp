@@ -107,6 +107,10 @@ std::vector<Eigen::Vector2d> Explorer::reachable_border() const {
 
 }  // namespace
 
+std::string to_string(ExplorationStatus status) {
+  return status == ExplorationStatus::complete ? "complete" : "time_limit";
+}
+
 Exploration explore(const Scene& scene, const Transform& T_map_base,
                     const ExplorationOptions& options) {
   return Explorer(scene, T_map_base, options).run();

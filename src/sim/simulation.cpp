@@ -1,0 +1,71 @@
+#include "sim/simulation.hpp"
+
+#include <utility>
+
+#include "core/number.hpp"
+#include "core/stopwatch.hpp"
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/sim/floor.hpp"
+
+namespace nbvopt {
+namespace {
+
+double floor_below(const Scene& scene, const Eigen::Vector3d& above_map_m) {
+  const std::optional<double> z_m = floor_height_m(scene, above_map_m);
+  if (z_m) return *z_m;
+  throw InputError("start: there is no floor below z = " + format_number(above_map_m.z()) +
+                   " m, give x, y, z, yaw");
+}
+
+Transform start_pose(const std::vector<double>& start, const Scene& scene) {
+  if (start.size() != 3 && start.size() != 4) {
+    throw InputError("start has " + std::to_string(start.size()) +
+                     " numbers, it must be x, y, yaw or x, y, z, yaw");
+  }
+  // Above what a robot can stand on, below tables and ceilings.
+  constexpr double kAboveFloor_m = 0.5;
+  const double z_m =
+      start.size() == 4 ? start[2] : floor_below(scene, {start[0], start[1], kAboveFloor_m});
+  return base_pose(start[0], start[1], z_m, start.back());
+}
+
+}  // namespace
+
+Drive make_drive(const Scene& scene, const DriveOptions& options) {
+  const Transform T_map_base = start_pose(options.start, scene);
+  Exploration exploration =
+      options.goals_map_m.empty()
+          ? explore(scene, T_map_base, options.exploration)
+          : drive_to(scene, T_map_base, options.goals_map_m, options.exploration);
+  return {std::move(exploration.trajectory), exploration.status};
+}
+
+Simulation::Simulation(SimulationOptions options)
+    : options_(std::move(options)),
+      mode_(make_camera_mode(options_.mode)),
+      map_(options_.resolution_m) {
+  options_.episode.validate();
+}
+
+EpisodeReport Simulation::run(const Scene& scene, const Trajectory& trajectory,
+                              const std::function<void(const Capture&)>& observe) {
+  const Stopwatch stopwatch;
+  StepTimer timer;
+  EpisodeReport report;
+  report.summary =
+      run_episode(scene, trajectory, *mode_, options_.episode, map_, [&](const Capture& capture) {
+        timer.add(capture);
+        captures_.push_back(capture);
+        observe(capture);
+      });
+  report.world = options_.world;
+  report.mode = options_.mode;
+  report.motion_time_s = options_.episode.motion_time_s;
+  report.seed = options_.episode.seed;
+  report.paper_counts = map_.paper_counts();
+  report.times = timer.mean();
+  report.elapsed_ms = stopwatch.elapsed_ms();
+  return report;
+}
+
+}  // namespace nbvopt

@@ -1,0 +1,68 @@
+// A simulation as users run it: the base drives by itself, and the camera maps along the drive.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nbvopt/map/uncertainty_map.hpp"
+#include "nbvopt/sim/camera_mode.hpp"
+#include "nbvopt/sim/episode.hpp"
+#include "nbvopt/sim/exploration.hpp"
+#include "nbvopt/sim/scene.hpp"
+#include "nbvopt/sim/trajectory.hpp"
+#include "sim/episode_output.hpp"
+
+namespace nbvopt {
+
+struct DriveOptions {
+  std::vector<double> start = {};  ///< x, y, yaw or x, y, z, yaw in the map; without z on the floor
+  std::vector<Eigen::Vector2d> goals_map_m = {};  ///< driven to in turn; empty: the base explores
+  ExplorationOptions exploration = {};
+};
+
+/// What an episode follows, and how it came about where it was made just now.
+struct Drive {
+  Trajectory trajectory;
+  std::optional<ExplorationStatus> status = {};  ///< none: replayed
+};
+
+/// Explores, or drives to the goals. Throws InputError as explore() and drive_to() do, and when
+/// there is no floor below the start.
+Drive make_drive(const Scene& scene, const DriveOptions& options);
+
+struct SimulationOptions {
+  std::string world;          ///< its name in the report
+  std::string mode = "auto";  ///< one of camera_mode_names()
+  EpisodeOptions episode;
+  double resolution_m = 0.1;  ///< of the map's voxels
+};
+
+/// An episode, with its mode, that maps from nothing.
+class Simulation {
+ public:
+  /// Throws InputError for what run_episode() would refuse, and UsageError for an unknown mode:
+  /// before a world is read or a drive made.
+  explicit Simulation(SimulationOptions options);
+
+  /// Runs the episode as run_episode() does; to be called once.
+  EpisodeReport run(const Scene& scene, const Trajectory& trajectory,
+                    const std::function<void(const Capture&)>& observe);
+
+  const SimulationOptions& options() const { return options_; }
+  const std::vector<Capture>& captures() const { return captures_; }  ///< so far
+  const UncertaintyMap& map() const { return map_; }                  ///< so far
+  UncertaintyMap& map() { return map_; }
+
+ private:
+  SimulationOptions options_;
+  std::unique_ptr<const CameraMode> mode_;
+  std::vector<Capture> captures_;
+  UncertaintyMap map_;
+};
+
+}  // namespace nbvopt
