@@ -15,8 +15,7 @@ namespace {
 BenchScene make_known_scene(const std::string& name) {
   const nlohmann::json views = test::read_oracle(name + ".json");
   const nlohmann::json queries = test::read_oracle(name + "_optima.json");
-  const std::filesystem::path file =
-      test::shared_dir() / "maps" / queries.at("map").get<std::string>();
+  const std::filesystem::path file = test::oracle_map_file(queries);
   BenchScene scene{.name = name,
                    .map_file = file,
                    .map = read_map(file),

@@ -17,13 +17,25 @@ namespace {
 /// One grazing ray, or rounding.
 double tolerance(double gain) { return std::max(5e-4 * gain, 1.0); }
 
-class Optima : public ::testing::TestWithParam<const char*> {
+/// A file of optima, and which share of the best gain auto must reach there. On the map that ships
+/// the exact gain is rough, by up to 1 % within a few milliradians, and its optima make the most of
+/// that: they come from thousands of views of the exact gain, where auto looks at some twenty.
+struct Known {
+  std::string name;
+  double mean_share;
+  double worst_share;
+};
+
+void PrintTo(const Known& known, std::ostream* out) { *out << known.name; }
+
+class Optima : public ::testing::TestWithParam<Known> {
  protected:
   void SetUp() override {
-    NBVOPT_REQUIRE_SHARED();
-    oracle_ = test::read_oracle(std::string(GetParam()) + "_optima.json");
+    const std::string file = GetParam().name + "_optima.json";
+    NBVOPT_REQUIRE_ORACLE(file);
+    oracle_ = test::read_oracle(file);
     robot_.sensor = test::oracle_sensor(oracle_);
-    map_.emplace(read_map(test::shared_dir() / "maps" / oracle_.at("map").get<std::string>()));
+    map_.emplace(read_map(test::oracle_map_file(oracle_)));
     grid_ = VoxelGrid::lazy(*map_);
     exact_ = make_exact_evaluator(grid_, DepthCamera(robot_.sensor));
   }
@@ -76,17 +88,20 @@ TEST_P(Optima, AreFoundByAuto) {
   for (const nlohmann::json& known : oracle_.at("cases")) {
     const PlanResult result = planner.plan(request_of(known), *search);
     const double ratio = result.view.gain / known.at("best_gain").get<double>();
-    EXPECT_GE(ratio, 0.998) << known;
+    EXPECT_GE(ratio, GetParam().worst_share) << known;
     ratio_sum += ratio;
     worst = std::min(worst, ratio);
   }
   const double mean = ratio_sum / static_cast<double>(oracle_.at("cases").size());
-  EXPECT_GE(mean, 0.9995);
-  std::cout << GetParam() << ": auto reaches " << mean << " of the best gain in the mean, " << worst
-            << " in the worst case\n";
+  EXPECT_GE(mean, GetParam().mean_share);
+  std::cout << GetParam().name << ": auto reaches " << mean << " of the best gain in the mean, "
+            << worst << " in the worst case\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Maps, Optima, ::testing::Values("ASLAM_lab", "apartment_partial"));
+INSTANTIATE_TEST_SUITE_P(Maps, Optima,
+                         ::testing::Values(Known{"ASLAM_lab", 0.9995, 0.998},
+                                           Known{"apartment_partial", 0.9995, 0.998},
+                                           Known{"office_partial", 0.997, 0.985}));
 
 }  // namespace
 }  // namespace nbvopt

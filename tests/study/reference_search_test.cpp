@@ -85,12 +85,12 @@ TEST(ReferenceSearch, IsDeterministic) {
 class KnownOptima : public testing::TestWithParam<const char*> {};
 
 TEST_P(KnownOptima, AreReached) {
-  NBVOPT_REQUIRE_SHARED();
-  const nlohmann::json oracle = test::read_oracle(std::string(GetParam()) + "_optima.json");
+  const std::string file = std::string(GetParam()) + "_optima.json";
+  NBVOPT_REQUIRE_ORACLE(file);
+  const nlohmann::json oracle = test::read_oracle(file);
   Robot robot;
   robot.sensor = test::oracle_sensor(oracle);
-  const UncertaintyMap map =
-      read_map(test::shared_dir() / "maps" / oracle.at("map").get<std::string>());
+  const UncertaintyMap map = read_map(test::oracle_map_file(oracle));
   const auto grid = VoxelGrid::lazy(map);
   const std::shared_ptr<const ViewEvaluator> exact =
       make_exact_evaluator(grid, DepthCamera(robot.sensor));
@@ -111,7 +111,8 @@ TEST_P(KnownOptima, AreReached) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, KnownOptima, testing::Values("ASLAM_lab", "apartment_partial"),
+INSTANTIATE_TEST_SUITE_P(All, KnownOptima,
+                         testing::Values("ASLAM_lab", "apartment_partial", "office_partial"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The known answers that lie beside the project, where they are there.
+// Maps with known answers: those of datasets/, and those that lie beside the project, where they
+// are there.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 
 namespace nbvopt::test {
 
+inline std::filesystem::path datasets_dir() { return NBVOPT_SOURCE_DIR "/datasets"; }
 inline std::filesystem::path shared_dir() { return NBVOPT_SHARED_DIR; }
 
 /// Skips the test, saying so, where the shared maps and oracles are not there.
@@ -22,9 +24,32 @@ inline std::filesystem::path shared_dir() { return NBVOPT_SHARED_DIR; }
   if (!std::filesystem::exists(::nbvopt::test::shared_dir() / "oracle")) \
   GTEST_SKIP() << "the maps and known answers of ../shared are not here, so this was not tested"
 
+/// The file with known answers of this name: what ships, or else what is shared.
+inline std::filesystem::path oracle_file(const std::string& name) {
+  const std::filesystem::path shipped = datasets_dir() / "oracle" / name;
+  return std::filesystem::exists(shipped) ? shipped : shared_dir() / "oracle" / name;
+}
+
+/// The map of this name, likewise.
+inline std::filesystem::path known_map_file(const std::string& name) {
+  const std::filesystem::path shipped = datasets_dir() / name;
+  return std::filesystem::exists(shipped) ? shipped : shared_dir() / "maps" / name;
+}
+
+/// Skips the test, saying so, where these known answers are not there; those that ship always are.
+#define NBVOPT_REQUIRE_ORACLE(name)                                   \
+  if (!std::filesystem::exists(::nbvopt::test::oracle_file(name)))    \
+  GTEST_SKIP() << (name) << ": these known answers of ../shared are " \
+               << "not here, so this was not tested"
+
 inline nlohmann::json read_oracle(const std::string& name) {
-  std::ifstream in(shared_dir() / "oracle" / name);
+  std::ifstream in(oracle_file(name));
   return nlohmann::json::parse(in);
+}
+
+/// The map that an oracle file tells of.
+inline std::filesystem::path oracle_map_file(const nlohmann::json& oracle) {
+  return known_map_file(oracle.at("map").get<std::string>());
 }
 
 /// The sensor block of an oracle file.
