@@ -7,6 +7,7 @@
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::bench {
 namespace {
@@ -62,8 +63,7 @@ PlanRequest draw_request(const UncertaintyMap& map, const Mast& mast, std::mt199
 BenchScene make_office_partial() {
   constexpr std::size_t kViews = 48;
   constexpr std::size_t kQueries = 12;
-  const std::filesystem::path file =
-      std::filesystem::path(NBVOPT_SOURCE_DIR) / "datasets" / "office_partial.ot";
+  const std::filesystem::path file = test::datasets_dir() / "office_partial.ot";
   BenchScene scene{.name = "office_partial",
                    .map_file = file,
                    .map = read_map(file),

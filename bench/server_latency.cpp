@@ -5,6 +5,7 @@
 #include "bench/bench_scene.hpp"
 #include "bench/latencies.hpp"
 #include "nbvopt/client/planner_client.hpp"
+#include "support/paths.hpp"
 #include "support/server_process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -14,7 +15,7 @@ std::string measure_server_latency(int calls) {
   const auto scene = make_bench_scenes({"ASLAM_lab"}).front();
   const test::TemporaryFolder folder;
   const test::ServerProcess server(
-      NBVOPT_CLI,
+      test::cli_program(),
       {"serve", scene->map_file.string(), "--robot",
        folder.write("robot.yaml", to_yaml(scene->robot)), "--listen", "127.0.0.1:0"},
       folder / "log");

@@ -12,6 +12,7 @@
 #include "nbvopt/sim/exploration.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
 #include "nbvopt/sim/world.hpp"
+#include "support/paths.hpp"
 #include "support/server_process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -34,7 +35,7 @@ struct Frame {
 std::vector<Frame> drive_through_the_office() {
   constexpr std::size_t kFrames = 300;
   constexpr JointPosition kJoints{.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
-  const Scene scene(read_world(NBVOPT_SOURCE_DIR "/datasets/office.world", {}).mesh);
+  const Scene scene(read_world(test::datasets_dir() / "office.world", {}).mesh);
   const Trajectory way =
       explore(scene, base_pose(0.62, 0.71, 0.0, 0.0), ExplorationOptions{}).trajectory;
   const Robot robot;
@@ -77,7 +78,7 @@ std::string measure_server_load(double minutes) {
   const std::vector<Frame> frames = drive_through_the_office();
   const test::TemporaryFolder folder;
   test::ServerProcess server(
-      NBVOPT_CLI,
+      test::cli_program(),
       {"serve", "--create", "0.1", "--snapshot", folder / "snapshot.ot", "--listen", "127.0.0.1:0"},
       folder / "log");
   PlannerClient client(server.address());

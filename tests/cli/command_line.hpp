@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nbvopt/map/map_file.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,7 +19,7 @@ namespace nbvopt::test {
 /// Runs nbvopt with these arguments.
 inline ProcessResult nbvopt_run(const std::vector<std::string>& arguments,
                                 const std::string& input = {}) {
-  return run_process(NBVOPT_CLI, arguments, input);
+  return run_process(cli_program(), arguments, input);
 }
 
 /// Runs nbvopt, which must answer, and parses all that it prints as one JSON object.

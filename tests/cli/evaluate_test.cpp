@@ -4,6 +4,7 @@
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/mast/mast.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {

@@ -1,6 +1,7 @@
 // The tool itself: help, version, exit codes, where output goes.
 #include "cli/command_line.hpp"
 #include "nbvopt/core/version.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -42,8 +43,7 @@ TEST(Main, WrongCommandLinesAreUsageErrors) {
 
 TEST_F(CommandLine, FullStandardOutputIsAnError) {
   const ProcessResult result = run_process(
-      "/bin/sh",
-      {"-c", std::string(NBVOPT_CLI) + " evaluate '" + map_file + "' --poses - > /dev/full"},
+      "/bin/sh", {"-c", cli_program() + " evaluate '" + map_file + "' --poses - > /dev/full"},
       R"({"cases": []})");
   expect_refusal(result, 3, "standard output");
 }

@@ -8,6 +8,8 @@
 #include "cli/served.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "server/snapshot_file.hpp"
+#include "support/paths.hpp"
+#include "support/sanitizers.hpp"
 #include "support/wait_until.hpp"
 
 namespace nbvopt::test {
@@ -76,7 +78,7 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
   int lost_scans = 0;
   for (int i = 0; i < kKills; ++i) {
     if (i % 5 == 4) {  // while it starts
-      BackgroundProcess starting(NBVOPT_CLI, server.arguments(), server.folder / "log");
+      BackgroundProcess starting(cli_program(), server.arguments(), server.folder / "log");
       std::this_thread::sleep_for(std::chrono::microseconds(uniform_int(random, 0, 150'000)));
       starting.send(SIGKILL);
       starting.wait();
@@ -122,7 +124,7 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
 
 TEST_F(Serve, SaysWhenTheDiskIsFullAndGoesOn) {
   // The largest file that it may write: 4 blocks of 512 bytes.
-  std::string command = "ulimit -f 4; exec '" NBVOPT_CLI "'";
+  std::string command = "ulimit -f 4; exec '" + cli_program() + "'";
   for (const std::string& word : server.arguments({"--snapshot-every", "0.01"})) {
     command += " '" + word + "'";
   }
@@ -166,15 +168,14 @@ TEST_F(Serve, RefusesWhatItCannotStartWith) {
   expect_refusal(nbvopt_run(server.arguments()), 3, "snapshot.ot");
 }
 
-// A preloaded library must come before the sanitizers', which refuse that.
-#ifndef __SANITIZE_ADDRESS__
 TEST_F(Serve, GoesOnWhenTheClockJumps) {
+  if (kAddressSanitizer) GTEST_SKIP() << "a preloaded library must come before the sanitizer's";
   const char* fake = "/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1";
   if (!std::filesystem::exists(fake)) GTEST_SKIP() << "libfaketime is not installed";
   const std::string offset = server.folder.write("offset", "+0");
   std::vector<std::string> arguments{std::string("LD_PRELOAD=") + fake,
                                      "FAKETIME_TIMESTAMP_FILE=" + offset, "FAKETIME_NO_CACHE=1",
-                                     "FAKETIME_DONT_FAKE_MONOTONIC=1", NBVOPT_CLI};
+                                     "FAKETIME_DONT_FAKE_MONOTONIC=1", cli_program()};
   for (const std::string& argument :
        server.arguments({"--snapshot-every", "0.05", "--log-level", "debug"})) {
     arguments.push_back(argument);
@@ -198,7 +199,6 @@ TEST_F(Serve, GoesOnWhenTheClockJumps) {
   served.process().send(SIGTERM);
   EXPECT_EQ(served.process().wait(), 0);
 }
-#endif
 
 /// Keys and certificates of a test, made by OpenSSL.
 class Certificates {
@@ -258,7 +258,7 @@ TEST_F(Serve, LetsOnlyThoseInFromElsewhereWhoHaveACertificate) {
 }
 
 TEST_F(Serve, AnswersQueriesToTheLastBit) {
-  const std::string map = NBVOPT_SOURCE_DIR "/datasets/office_partial.ot";
+  const std::string map = datasets_dir() / "office_partial.ot";
   const Served served(server, {"serve", map, "--listen", server.socket()});
   for (const Arguments& more :
        {Arguments{}, Arguments{"--seed", "7", "--solver", "nlopt:crs2", "--max-evals", "200"},

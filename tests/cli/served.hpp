@@ -6,6 +6,7 @@
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "server/server_world.hpp"
+#include "support/paths.hpp"
 #include "support/server_process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -36,7 +37,7 @@ class ServerFolder {
 class Served : public ServerProcess {
  public:
   Served(const ServerFolder& folder, const std::vector<std::string>& arguments,
-         const std::string& program = NBVOPT_CLI)
+         const std::string& program = cli_program())
       : ServerProcess(program, arguments, folder.folder / "log") {}
 };
 

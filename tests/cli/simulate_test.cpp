@@ -3,6 +3,7 @@
 
 #include "cli/command_line.hpp"
 #include "core/text_file.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -11,7 +12,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using Arguments = std::vector<std::string>;
 
-const std::string kOffice = NBVOPT_SOURCE_DIR "/datasets/office.world";
+const std::string kOffice = datasets_dir() / "office.world";
 
 class Simulate : public ::testing::Test {
  protected:

@@ -8,6 +8,7 @@
 
 #include "cli/command_line.hpp"
 #include "support/background_process.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -85,7 +86,7 @@ TEST_F(StudyCommand, SurvivesTwentyKills) {
   ASSERT_EQ(nbvopt_run(run_arguments("whole", file)).exit_code, 0);
   std::mt19937_64 random(1);
   for (int kill = 0; kill < 20; ++kill) {
-    BackgroundProcess process(NBVOPT_CLI, run_arguments("killed", file), folder / "killed.log");
+    BackgroundProcess process(cli_program(), run_arguments("killed", file), folder / "killed.log");
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
     process.send(SIGKILL);
     process.wait();
@@ -96,7 +97,7 @@ TEST_F(StudyCommand, SurvivesTwentyKills) {
 
 TEST_F(StudyCommand, AStopKeepsWhatWasDone) {
   const std::string file = spec("seeds: [1, 2, 3, 4, 5, 6]\n");
-  BackgroundProcess process(NBVOPT_CLI, run_arguments("out", file), folder / "stopped.log");
+  BackgroundProcess process(cli_program(), run_arguments("out", file), folder / "stopped.log");
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   process.send(SIGINT);
   EXPECT_EQ(process.wait(), -1) << "it ends by the signal";

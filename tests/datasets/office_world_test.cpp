@@ -13,11 +13,12 @@
 #include "nbvopt/sim/world.hpp"
 #include "office_scene.hpp"
 #include "simulated_scan.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
 
-const std::string kWorldFile = NBVOPT_SOURCE_DIR "/datasets/office.world";
+const std::string kWorldFile = test::datasets_dir() / "office.world";
 
 TEST(OfficeWorld, IsWhatItsGeneratorMakes) {
   EXPECT_TRUE(read_text_file(kWorldFile) == office_world());

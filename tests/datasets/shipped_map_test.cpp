@@ -3,12 +3,13 @@
 
 #include "nbvopt/map/map_file.hpp"
 #include "office_partial.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
 
 TEST(OfficePartial, IsWhatItsGeneratorMakes) {
-  const UncertaintyMap shipped = read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot");
+  const UncertaintyMap shipped = read_map(test::datasets_dir() / "office_partial.ot");
   const UncertaintyMap made = make_office_partial();
   ASSERT_EQ(shipped.resolution_m(), made.resolution_m());
   ASSERT_EQ(shipped.known_box(), made.known_box());
@@ -30,7 +31,7 @@ TEST(OfficePartial, IsWhatItsGeneratorMakes) {
 }
 
 TEST(OfficePartial, HasKnownUnknownAndBadlySeenParts) {
-  const UncertaintyMap map = read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot");
+  const UncertaintyMap map = read_map(test::datasets_dir() / "office_partial.ot");
   EXPECT_TRUE(map.carries_uncertainty());
   const auto at = [&](double x, double y, double z) {
     return map.at(map.lattice().key({x, y, z}));

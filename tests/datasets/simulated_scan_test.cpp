@@ -9,7 +9,7 @@
 namespace nbvopt {
 namespace {
 
-constexpr double kResolution_m = 0.1;
+constexpr double kMapResolution_m = 0.1;
 
 SensorOptions small_sensor() {
   SensorOptions sensor;
@@ -23,7 +23,7 @@ Transform looking_along_x() { return test::camera_at(Eigen::Vector3d::Constant(0
 
 /// Free space within 6 m of the origin; where x >= wall_x_m, a wall.
 std::shared_ptr<const VoxelGrid> world_with_wall(double wall_x_m) {
-  UncertaintyMap map(kResolution_m);
+  UncertaintyMap map(kMapResolution_m);
   const VoxelKey min = map.lattice().key({-1.0, -4.0, -4.0});
   const VoxelKey max = map.lattice().key({6.0, 4.0, 4.0});
   for (std::uint16_t x = min.x; x <= max.x; ++x) {
@@ -59,7 +59,7 @@ TEST(SimulatedScan, NothingReturnsFromAWallBeyondTheRange) {
 }
 
 TEST(SimulatedScan, AnUnknownWorldGivesNoReturns) {
-  const UncertaintyMap nothing(kResolution_m);
+  const UncertaintyMap nothing(kMapResolution_m);
   const Scan scan = simulate_scan(*VoxelGrid::whole(nothing), small_sensor(), looking_along_x());
   EXPECT_TRUE(scan.points_m.empty());
   EXPECT_FALSE(scan.no_returns.empty());

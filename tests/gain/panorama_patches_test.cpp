@@ -10,6 +10,7 @@
 #include "nbvopt/planner/planner.hpp"
 #include "planner/panorama_objective.hpp"
 #include "support/error_message.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -71,7 +72,7 @@ TEST_F(PanoramaPatches, HaveTheDerivativesOfCentralDifferences) {
 }
 
 TEST_F(PanoramaPatches, StayBelowTheirBound) {
-  const UncertaintyMap office = read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot");
+  const UncertaintyMap office = read_map(datasets_dir() / "office_partial.ot");
   world_.box = {{-3.0, -0.79, 0.18}, {3.0, 0.79, 0.63}};
   world_.options.ray_spacing = 2.0;
   world_.options.layer_spacing = 6.0;  // hits are seen from nearer than they were cast from

@@ -7,7 +7,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <numbers>
 #include <thread>
 #include <vector>
 
@@ -15,11 +14,11 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<JointPosition> corners(const JointBox& box) {
   std::vector<JointPosition> all;
@@ -322,7 +321,7 @@ double error_against_denser_sensor(const PanoramaWorld& world, const Panorama& p
 }
 
 TEST(Panorama, ConvergesToTheExactGainOfEverDenserSensors) {
-  const UncertaintyMap map = read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot");
+  const UncertaintyMap map = read_map(datasets_dir() / "office_partial.ot");
   PanoramaWorld world;
   world.grid = VoxelGrid::whole(map);
   world.T_map_base = base_pose(1.93, 2.0, 0.0, 0.4);

@@ -19,6 +19,7 @@
 #include "nbvopt/map/colour_ramp.hpp"
 #include "support/error_message.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nbvopt {

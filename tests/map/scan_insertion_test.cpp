@@ -3,7 +3,6 @@
 #include <octomap/OcTree.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -14,14 +13,14 @@
 #include "nbvopt/sensor/uncertainty_model.hpp"
 #include "support/camera_pose.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::kInfinity;
+using test::kNaN;
 using ::testing::HasSubstr;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 // OctoMap's defaults: what one hit and one miss add, in log-odds, and where they stop.
 const float kHitLogOdds = std::log(0.7F / 0.3F);

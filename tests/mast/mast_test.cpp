@@ -8,16 +8,17 @@
 
 #include "nbvopt/core/error.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
+
+using test::kNaN;
 
 using std::numbers::pi;
 using test::message_of;
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MastOptions limited_pan() {
   MastOptions options;
@@ -120,9 +121,9 @@ TEST(ReachableBox, RefusesABadTimeAndJointsBeyondLimits) {
   const Mast mast(MastOptions{});
   const JointPosition q{0.0, 0.0, 0.3};
   EXPECT_THAT(message_of<UsageError>([&] { mast.reachable_box(q, -0.5); }), HasSubstr("-0.5 s"));
-  EXPECT_THROW(mast.reachable_box(q, kNan), UsageError);
+  EXPECT_THROW(mast.reachable_box(q, kNaN), UsageError);
   EXPECT_THROW(mast.reachable_box({0.0, 0.8, 0.3}, 1.0), UsageError);
-  EXPECT_THROW(mast.reachable_box({kNan, 0.0, 0.3}, 1.0), UsageError);
+  EXPECT_THROW(mast.reachable_box({kNaN, 0.0, 0.3}, 1.0), UsageError);
 }
 
 TEST(MoveTime, IsThatOfTheSlowestJoint) {
@@ -180,7 +181,7 @@ TEST(Clamped, RefusesMore) {
               }),
               AllOf(HasSubstr("height is 0.17 m"), HasSubstr("0.18 to 0.63 m")));
   EXPECT_THAT(message_of<InputError>([&] {
-                mast.clamped({0.0, kNan, 0.3}, warnings);
+                mast.clamped({0.0, kNaN, 0.3}, warnings);
               }),
               HasSubstr("tilt is nan rad"));
   EXPECT_THROW(
@@ -197,7 +198,7 @@ TEST(MastOptions, BadFieldsAreNamedWithTheirValue) {
   EXPECT_EQ(message([](auto&) {}), "");
   EXPECT_THAT(message([](auto& m) { m.pan_min_rad = 4; }),
               HasSubstr("mast.pan_min_rad is 4, it must be at most mast.pan_max_rad"));
-  EXPECT_THAT(message([](auto& m) { m.pan_max_rad = kNan; }), HasSubstr("mast.pan_max_rad is nan"));
+  EXPECT_THAT(message([](auto& m) { m.pan_max_rad = kNaN; }), HasSubstr("mast.pan_max_rad is nan"));
   EXPECT_THAT(message([](auto& m) { m.pan_velocity_rad_s = 0; }),
               HasSubstr("mast.pan_velocity_rad_s is 0"));
   EXPECT_THAT(message([](auto& m) { m.tilt_min_rad = -1.6; }),
@@ -209,9 +210,9 @@ TEST(MastOptions, BadFieldsAreNamedWithTheirValue) {
   EXPECT_THAT(message([](auto& m) { m.height_max_m = 0.1; }),
               HasSubstr("mast.height_min_m is 0.18, it must be at most mast.height_max_m, which "
                         "is 0.1"));
-  EXPECT_THAT(message([](auto& m) { m.height_velocity_m_s = kNan; }),
+  EXPECT_THAT(message([](auto& m) { m.height_velocity_m_s = kNaN; }),
               HasSubstr("mast.height_velocity_m_s is nan"));
-  EXPECT_THAT(message([](auto& m) { m.sensor_offset_m[1] = kNan; }),
+  EXPECT_THAT(message([](auto& m) { m.sensor_offset_m[1] = kNaN; }),
               HasSubstr("mast.sensor_offset_m is nan"));
 }
 

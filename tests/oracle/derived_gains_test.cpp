@@ -16,7 +16,7 @@ namespace nbvopt {
 namespace {
 
 /// Rounding: the sums run in another order.
-double tolerance(double gain) { return 1e-9 * std::max(gain, 1.0); }
+double rounding(double gain) { return 1e-9 * std::max(gain, 1.0); }
 
 UncertaintyMap office() { return read_map(test::known_map_file("office_partial.ot")); }
 
@@ -30,7 +30,7 @@ TEST(DerivedGains, AreThoseOfThePaperCode) {
     const nlohmann::json& known = oracle.at("cases").at(i);
     const double gain = known.at("gain");
     const ViewGain view = evaluator->evaluate(poses[i]);
-    EXPECT_NEAR(view.gain, gain, tolerance(gain)) << known;
+    EXPECT_NEAR(view.gain, gain, rounding(gain)) << known;
     EXPECT_EQ(view.unknown_rays, known.at("unknown_rays").get<int>()) << known;
   }
 }
@@ -51,8 +51,8 @@ TEST(DerivedGains, AreThoseOfTheExactEvaluatorOnEveryInstructionSet) {
       };
       const double current = known.at("current_gain");
       const double best = known.at("best_gain");
-      EXPECT_NEAR(gain_at(known), current, tolerance(current)) << to_string(level) << known;
-      EXPECT_NEAR(gain_at(known.at("best")), best, tolerance(best)) << to_string(level) << known;
+      EXPECT_NEAR(gain_at(known), current, rounding(current)) << to_string(level) << known;
+      EXPECT_NEAR(gain_at(known.at("best")), best, rounding(best)) << to_string(level) << known;
     }
   }
 }

@@ -4,11 +4,12 @@
 
 #include "nbvopt/map/map_file.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
 
-struct Known {
+struct KnownCounts {
   const char* file;
   std::uint64_t occupied, free, certain;
   double information;
@@ -18,11 +19,11 @@ MapCounts counts_of(const std::string& file) {
   return read_map(test::known_map_file(file)).counts();
 }
 
-class MapCountsOracle : public ::testing::TestWithParam<Known> {};
+class MapCountsOracle : public ::testing::TestWithParam<KnownCounts> {};
 
 TEST_P(MapCountsOracle, AreThoseOfTheReadme) {
   NBVOPT_REQUIRE_SHARED();
-  const Known& known = GetParam();
+  const KnownCounts& known = GetParam();
   const MapCounts counts = counts_of(known.file);
   EXPECT_EQ(counts.occupied_voxels, known.occupied);
   EXPECT_EQ(counts.free_voxels, known.free);
@@ -42,9 +43,9 @@ TEST(MapCountsOracle, OfTheMapThatShips) {
 
 INSTANTIATE_TEST_SUITE_P(
     Maps, MapCountsOracle,
-    ::testing::Values(Known{"ASLAM_lab.bt", 178658, 2767691, 0, 0.0},
-                      Known{"apartment_partial.ot", 15128, 154312, 10631, 5017.4},
-                      Known{"warehouse_partial.ot", 10748, 134976, 6816, 3210.9}));
+    ::testing::Values(KnownCounts{"ASLAM_lab.bt", 178658, 2767691, 0, 0.0},
+                      KnownCounts{"apartment_partial.ot", 15128, 154312, 10631, 5017.4},
+                      KnownCounts{"warehouse_partial.ot", 10748, 134976, 6816, 3210.9}));
 
 }  // namespace
 }  // namespace nbvopt

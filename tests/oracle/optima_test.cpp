@@ -10,25 +10,26 @@
 #include "nbvopt/planner/planner.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
 
 /// One grazing ray, or rounding.
-double tolerance(double gain) { return std::max(5e-4 * gain, 1.0); }
+double search_tolerance(double gain) { return std::max(5e-4 * gain, 1.0); }
 
 /// A file of optima, and which share of the best gain auto must reach there. On the map that ships
 /// the exact gain is rough, by up to 1 % within a few milliradians, and its optima make the most of
 /// that: they come from thousands of views of the exact gain, where auto looks at some twenty.
-struct Known {
+struct KnownOptima {
   std::string name;
   double mean_share;
   double worst_share;
 };
 
-void PrintTo(const Known& known, std::ostream* out) { *out << known.name; }
+void PrintTo(const KnownOptima& known, std::ostream* out) { *out << known.name; }
 
-class Optima : public ::testing::TestWithParam<Known> {
+class Optima : public ::testing::TestWithParam<KnownOptima> {
  protected:
   void SetUp() override {
     const std::string file = GetParam().name + "_optima.json";
@@ -66,11 +67,11 @@ TEST_P(Optima, AreReproduced) {
     const double current = known.at("current_gain");
     const double best_of_grid = known.at("pan_grid_gain");
     const double best = known.at("best_gain");
-    EXPECT_NEAR(result.current.gain, current, tolerance(current)) << known;
-    EXPECT_NEAR(result.view.gain, best_of_grid, tolerance(best_of_grid)) << known;
+    EXPECT_NEAR(result.current.gain, current, search_tolerance(current)) << known;
+    EXPECT_NEAR(result.view.gain, best_of_grid, search_tolerance(best_of_grid)) << known;
     const JointPosition best_joints = test::oracle_joints(known.at("best"));
     EXPECT_NEAR(exact_->evaluate(T_map_sensor(request, mast, best_joints)).gain, best,
-                tolerance(best))
+                search_tolerance(best))
         << known;
     EXPECT_TRUE(result.box.contains(best_joints.vector()) ||
                 (best_joints.vector() -
@@ -99,9 +100,9 @@ TEST_P(Optima, AreFoundByAuto) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, Optima,
-                         ::testing::Values(Known{"ASLAM_lab", 0.9995, 0.998},
-                                           Known{"apartment_partial", 0.9995, 0.998},
-                                           Known{"office_partial", 0.997, 0.985}));
+                         ::testing::Values(KnownOptima{"ASLAM_lab", 0.9995, 0.998},
+                                           KnownOptima{"apartment_partial", 0.9995, 0.998},
+                                           KnownOptima{"office_partial", 0.997, 0.985}));
 
 }  // namespace
 }  // namespace nbvopt

@@ -15,17 +15,15 @@
 #include "nbvopt/map/map_file.hpp"
 #include "support/made_map.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nbvopt {
 namespace {
 
 using test::uniform;
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kPlaces = 5;
-#else
-constexpr int kPlaces = 50;
-#endif
+constexpr int kPlaces = test::kAddressSanitizer ? 5 : 50;
 constexpr int kViews = 40;
 
 /// What is asked of the panorama, and how well it must answer.

@@ -9,6 +9,7 @@
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <future>
-#include <numbers>
 #include <random>
 #include <thread>
 
 #include "nbvopt/map/map_file.hpp"
 #include "planner/planner_world.hpp"
+#include "support/numbers.hpp"
+#include "support/paths.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -18,16 +20,10 @@ using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kRandomQueries = 25;
-#else
-constexpr int kRandomQueries = 1000;
-#endif
+constexpr int kRandomQueries = kAddressSanitizer ? 25 : 1000;
 
 const UncertaintyMap& office_map() {
-  static const UncertaintyMap map = read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot");
+  static const UncertaintyMap map = read_map(datasets_dir() / "office_partial.ot");
   return map;
 }
 

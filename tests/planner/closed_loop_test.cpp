@@ -12,16 +12,14 @@
 #include "nbvopt/solver/registry.hpp"
 #include "office_scene.hpp"
 #include "simulated_scan.hpp"
+#include "support/paths.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nbvopt {
 namespace {
 
 constexpr int kRounds = 12;
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t kStopsApart = 4;
-#else
-constexpr std::size_t kStopsApart = 1;
-#endif
+constexpr std::size_t kStopsApart = test::kAddressSanitizer ? 4 : 1;
 
 /// The paper's platform, its depth image thinned out.
 Robot coarse_robot() {
@@ -93,7 +91,7 @@ Information explore(const VoxelGrid& office, const MakeMap& known, const Transfo
 
 TEST(ClosedLoop, LearnsMostOfTheRestBySearchingAllJoints) {
   const auto office = VoxelGrid::whole(make_office(0.05));
-  const MakeMap shipped = [] { return read_map(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot"); };
+  const MakeMap shipped = [] { return read_map(test::datasets_dir() / "office_partial.ot"); };
   for (const std::size_t stop : {7, 10}) {
     const Information learned = explore(*office, shipped, office_stops()[stop]);
     EXPECT_GT(learned.pan_grid, learned.still);

@@ -1,15 +1,13 @@
 // Plans of a base that drives on while the joints move.
 #include <gmock/gmock.h>
 
-#include <numbers>
 #include <random>
 
 #include "planner/planner_world.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PlanRequest driving_request(const BaseTwist& base_twist, double motion_time_s = 1.0) {
   PlanRequest request = request_at(kMiddle, motion_time_s);

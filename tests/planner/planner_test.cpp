@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "planner/planner_world.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -21,12 +21,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 TEST(Planner, KeepsItsPromisesOnRandomQueries) {
-  const UncertaintyMap map =
-      read_map(std::string(NBVOPT_SOURCE_DIR) + "/datasets/office_partial.ot");
+  const UncertaintyMap map = read_map(datasets_dir() / "office_partial.ot");
   const World world(map, 4.0);
   const Planner planner = world.planner();
   const auto grid = make_solver("grid", {.grid_steps = {0.6, 0.3, 0.15}});
@@ -302,14 +298,14 @@ TEST(Planner, RefusesARequestThatIsNotUsable) {
     return message_of<InputError>([&] { world.planner().plan(request, *pan_grid(0.5)); });
   };
   EXPECT_EQ(message([](PlanRequest&) {}), "");
-  EXPECT_THAT(message([](auto& r) { r.T_map_base.translation().y() = kNan; }), HasSubstr("base"));
-  EXPECT_THAT(message([](auto& r) { r.T_map_base.linear()(0, 0) = kNan; }), HasSubstr("base"));
+  EXPECT_THAT(message([](auto& r) { r.T_map_base.translation().y() = kNaN; }), HasSubstr("base"));
+  EXPECT_THAT(message([](auto& r) { r.T_map_base.linear()(0, 0) = kNaN; }), HasSubstr("base"));
   EXPECT_THAT(message([](auto& r) { r.motion_time_s = -1.0; }), HasSubstr("motion_time_s is -1 s"));
-  EXPECT_THAT(message([](auto& r) { r.motion_time_s = kNan; }), HasSubstr("motion_time_s is nan"));
-  EXPECT_THAT(message([](auto& r) { r.joints.pan_rad = kNan; }), HasSubstr("pan is nan rad"));
+  EXPECT_THAT(message([](auto& r) { r.motion_time_s = kNaN; }), HasSubstr("motion_time_s is nan"));
+  EXPECT_THAT(message([](auto& r) { r.joints.pan_rad = kNaN; }), HasSubstr("pan is nan rad"));
   EXPECT_THAT(message([](auto& r) { r.joints.tilt_rad = 0.81; }), HasSubstr("tilt is 0.81 rad"));
   EXPECT_THAT(message([](auto& r) { r.joints.height_m = 0.17; }), HasSubstr("height is 0.17 m"));
-  EXPECT_THAT(message([](auto& r) { r.base_twist.wz_rad_s = kNan; }), HasSubstr("base_twist"));
+  EXPECT_THAT(message([](auto& r) { r.base_twist.wz_rad_s = kNaN; }), HasSubstr("base_twist"));
   EXPECT_THAT(message([](auto& r) { r.base_twist.vx_m_s = 1e3; }),
               HasSubstr("base_twist: the base would drive 500 m"));
   EXPECT_THAT(message([](auto& r) { r.T_map_base.translation().x() = 1e300; }),

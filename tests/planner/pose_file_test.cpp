@@ -17,14 +17,14 @@ PoseFile parse(const std::string& json, const Robot& robot = {}) {
   return parse_pose_file(json, "poses.json", robot);
 }
 
-std::string refusal(const std::string& json) {
+std::string pose_file_refusal(const std::string& json) {
   return message_of<InputError>([&] { parse(json); });
 }
 
 /// A file of one good case, and then this one.
 std::string refusal_of_case(const std::string& a_case) {
-  return refusal(R"({"cases": [{"position": [0, 0, 1], "orientation_xyzw": [0, 0, 0, 1]}, )" +
-                 a_case + "]}");
+  return pose_file_refusal(
+      R"({"cases": [{"position": [0, 0, 1], "orientation_xyzw": [0, 0, 0, 1]}, )" + a_case + "]}");
 }
 
 TEST(PoseFile, ReadsPositionAndQuaternion) {
@@ -85,14 +85,14 @@ TEST(PoseFile, DepthAlongTheAxisImpliesTheReleasedCodesRays) {
 }
 
 TEST(PoseFile, MalformedFilesAreRefusedWithTheLine) {
-  EXPECT_EQ(refusal("{\n\"cases\": [\n{]\n}"), "poses.json: line 3: not valid JSON");
-  EXPECT_EQ(refusal(""), "poses.json: line 1: not valid JSON");
-  EXPECT_EQ(refusal("{\"cases\": []"), "poses.json: line 1: not valid JSON");
-  EXPECT_EQ(refusal("{\"cases\":\n[NaN]}"), "poses.json: line 2: not valid JSON");
-  EXPECT_EQ(refusal("\xff\xfe\n{}"), "poses.json: line 1: not valid JSON");
-  EXPECT_EQ(refusal("[]"), "poses.json must be an object {...}");
-  EXPECT_EQ(refusal("{}"), "poses.json: 'cases' is missing");
-  EXPECT_EQ(refusal(R"({"cases": {}})"), "poses.json: 'cases' must be a list [...]");
+  EXPECT_EQ(pose_file_refusal("{\n\"cases\": [\n{]\n}"), "poses.json: line 3: not valid JSON");
+  EXPECT_EQ(pose_file_refusal(""), "poses.json: line 1: not valid JSON");
+  EXPECT_EQ(pose_file_refusal("{\"cases\": []"), "poses.json: line 1: not valid JSON");
+  EXPECT_EQ(pose_file_refusal("{\"cases\":\n[NaN]}"), "poses.json: line 2: not valid JSON");
+  EXPECT_EQ(pose_file_refusal("\xff\xfe\n{}"), "poses.json: line 1: not valid JSON");
+  EXPECT_EQ(pose_file_refusal("[]"), "poses.json must be an object {...}");
+  EXPECT_EQ(pose_file_refusal("{}"), "poses.json: 'cases' is missing");
+  EXPECT_EQ(pose_file_refusal(R"({"cases": {}})"), "poses.json: 'cases' must be a list [...]");
 }
 
 TEST(PoseFile, BadCasesAreRefusedWithTheirNumberAndField) {
@@ -125,7 +125,7 @@ TEST(PoseFile, BadCasesAreRefusedWithTheirNumberAndField) {
 
 TEST(PoseFile, BadSensorBlocksAreRefusedByField) {
   const auto with_sensor = [](const std::string& block) {
-    return refusal(R"({"cases": [], "sensor": )" + block + "}");
+    return pose_file_refusal(R"({"cases": [], "sensor": )" + block + "}");
   };
   EXPECT_EQ(with_sensor("4"), "poses.json: sensor must be an object {...}");
   EXPECT_EQ(with_sensor(R"({"range_max": 4})"),

@@ -5,6 +5,7 @@
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 #include "support/error_message.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
@@ -14,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string refusal(const std::string& yaml) {
+std::string robot_file_refusal(const std::string& yaml) {
   return message_of<InputError>([&] { parse_robot(yaml, "robot.yaml"); });
 }
 
@@ -65,61 +66,67 @@ TEST(RobotFile, ReadsBackEveryFieldThatItWrites) {
 }
 
 TEST(RobotFile, ShippedPaperPlatformIsTheDefault) {
-  EXPECT_EQ(read_robot(NBVOPT_SOURCE_DIR "/datasets/robots/paper.yaml"), Robot{});
+  EXPECT_EQ(read_robot(test::datasets_dir() / "robots/paper.yaml"), Robot{});
 }
 
 TEST(RobotFile, UnknownKeyIsRefusedWithTheNearest) {
-  EXPECT_EQ(refusal("sensor: {range_max: 4}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {range_max: 4}"),
             "robot.yaml: sensor: unknown key 'range_max', did you mean 'range_max_m'?");
-  EXPECT_EQ(refusal("mast: {tilt_min_deg: -30}"),
+  EXPECT_EQ(robot_file_refusal("mast: {tilt_min_deg: -30}"),
             "robot.yaml: mast: unknown key 'tilt_min_deg', did you mean 'tilt_min_rad'?");
-  EXPECT_EQ(refusal("sensors: {}"), "robot.yaml: unknown block 'sensors', did you mean 'sensor'?");
+  EXPECT_EQ(robot_file_refusal("sensors: {}"),
+            "robot.yaml: unknown block 'sensors', did you mean 'sensor'?");
 }
 
 TEST(RobotFile, WrongTypeIsRefused) {
-  EXPECT_EQ(refusal("sensor: {range_max_m: far}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {range_max_m: far}"),
             "robot.yaml: sensor.range_max_m is 'far', it must be a number");
-  EXPECT_EQ(refusal("sensor: {range_max_m: '4'}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {range_max_m: '4'}"),
             "robot.yaml: sensor.range_max_m is '4', it must be a number");
-  EXPECT_EQ(refusal("sensor: {horizontal_rays: 48.5}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {horizontal_rays: 48.5}"),
             "robot.yaml: sensor.horizontal_rays is 48.5, it must be a whole number");
-  EXPECT_EQ(refusal("sensor: {horizontal_rays: 1e300}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {horizontal_rays: 1e300}"),
             "robot.yaml: sensor.horizontal_rays is 1e+300, it must be a whole number");
-  EXPECT_EQ(refusal("sensor: {near_blocking: 1}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {near_blocking: 1}"),
             "robot.yaml: sensor.near_blocking is 1, it must be true or false");
-  EXPECT_EQ(refusal("sensor: {counting: per_pixel}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {counting: per_pixel}"),
             "robot.yaml: sensor.counting is 'per_pixel', it must be one of per_ray, per_voxel");
-  EXPECT_EQ(refusal("mast: {sensor_offset_m: [0, 1]}"),
+  EXPECT_EQ(robot_file_refusal("mast: {sensor_offset_m: [0, 1]}"),
             "robot.yaml: mast.sensor_offset_m is a list of 2 numbers, it must be a list of three "
             "numbers");
-  EXPECT_EQ(refusal("mast: {sensor_offset_m: [0, 1, up]}"),
+  EXPECT_EQ(robot_file_refusal("mast: {sensor_offset_m: [0, 1, up]}"),
             "robot.yaml: mast.sensor_offset_m must be a list of numbers");
-  EXPECT_THAT(refusal("sensor: {range_max_m: }"), HasSubstr("sensor.range_max_m has no value"));
-  EXPECT_THAT(refusal("sensor: {range_max_m: {m: 4}}"), HasSubstr("sensor.range_max_m has no"));
+  EXPECT_THAT(robot_file_refusal("sensor: {range_max_m: }"),
+              HasSubstr("sensor.range_max_m has no value"));
+  EXPECT_THAT(robot_file_refusal("sensor: {range_max_m: {m: 4}}"),
+              HasSubstr("sensor.range_max_m has no"));
 }
 
 TEST(RobotFile, ValueThatFailsItsCheckIsRefused) {
-  EXPECT_EQ(refusal("sensor: {range_min_m: 5}"),
+  EXPECT_EQ(robot_file_refusal("sensor: {range_min_m: 5}"),
             "robot.yaml: sensor.range_min_m is 5, it must be less than range_max_m, which is 4");
-  EXPECT_THAT(refusal("sensor: {horizontal_rays: 0}"), HasSubstr("sensor.horizontal_rays is 0"));
-  EXPECT_THAT(refusal("sensor: {range_max_m: nan}"), HasSubstr("sensor.range_max_m is nan"));
-  EXPECT_THAT(refusal("mast: {tilt_velocity_rad_s: -1}"),
+  EXPECT_THAT(robot_file_refusal("sensor: {horizontal_rays: 0}"),
+              HasSubstr("sensor.horizontal_rays is 0"));
+  EXPECT_THAT(robot_file_refusal("sensor: {range_max_m: nan}"),
+              HasSubstr("sensor.range_max_m is nan"));
+  EXPECT_THAT(robot_file_refusal("mast: {tilt_velocity_rad_s: -1}"),
               HasSubstr("mast.tilt_velocity_rad_s is -1"));
 }
 
 TEST(RobotFile, WhatIsGivenTwiceIsRefused) {
-  EXPECT_EQ(refusal("sensor:\n  range_max_m: 4\n  range_max_m: 5\n"),
+  EXPECT_EQ(robot_file_refusal("sensor:\n  range_max_m: 4\n  range_max_m: 5\n"),
             "robot.yaml: sensor.range_max_m is given twice, keep one");
-  EXPECT_EQ(refusal("sensor: {}\nsensor: {}\n"),
+  EXPECT_EQ(robot_file_refusal("sensor: {}\nsensor: {}\n"),
             "robot.yaml: block 'sensor' is given twice, keep one");
 }
 
 TEST(RobotFile, WhatIsNoRobotIsRefusedInOneLine) {
   for (const char* yaml : {"", "just words", "[1, 2]", "sensor: 4", "sensor: [1]",
                            "sensor: {range_max_m: 4", "? {a: b}\n: c", "a: &a [*a]", "\t:\n:-"}) {
-    EXPECT_THAT(refusal(yaml), AllOf(HasSubstr("robot.yaml: "), Not(HasSubstr("\n")))) << yaml;
+    EXPECT_THAT(robot_file_refusal(yaml), AllOf(HasSubstr("robot.yaml: "), Not(HasSubstr("\n"))))
+        << yaml;
   }
-  EXPECT_THAT(refusal("sensor:\n  range_max_m: [1\n"), HasSubstr("robot.yaml: line "));
+  EXPECT_THAT(robot_file_refusal("sensor:\n  range_max_m: [1\n"), HasSubstr("robot.yaml: line "));
 }
 
 TEST(RobotFile, MissingFileIsNamed) {

@@ -3,23 +3,21 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include "planner/planner_world.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::test {
 namespace {
 
 using ::testing::IsEmpty;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 TEST(SearchTrace, KeepsTheBestExactGainOnly) {
   SearchTrace trace(StopRule::Clock::now());
   trace.record(EvaluationKind::surrogate, {0.1, 0.0, 0.4}, 9.0);
   trace.record(EvaluationKind::exact, {0.2, 0.0, 0.4}, 5.0);
-  trace.record(EvaluationKind::exact, {0.3, 0.0, 0.4}, kNan);
+  trace.record(EvaluationKind::exact, {0.3, 0.0, 0.4}, kNaN);
   trace.record(EvaluationKind::exact, {0.4, 0.0, 0.4}, 4.0);
   trace.record(EvaluationKind::surrogate, {0.5, 0.0, 0.4}, 9.0);
   trace.record(EvaluationKind::exact, {0.6, 0.0, 0.4}, 6.0);

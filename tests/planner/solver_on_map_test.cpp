@@ -10,6 +10,7 @@
 #include "nbvopt/solver/registry.hpp"
 #include "planner/panorama_objective.hpp"
 #include "planner/view_objective.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::int64_t kLimit = 40;
 
 /// A query in the middle of the office.
 struct OfficeQuery {
-  UncertaintyMap map = read_map(std::string(NBVOPT_SOURCE_DIR) + "/datasets/office_partial.ot");
+  UncertaintyMap map = read_map(datasets_dir() / "office_partial.ot");
   std::shared_ptr<const VoxelGrid> grid = VoxelGrid::lazy(map);
   Robot robot;
   JointPosition joints{.pan_rad = 0.3, .tilt_rad = -0.1, .height_m = 0.4};

@@ -10,12 +10,13 @@
 #include "protocol/limit_error.hpp"
 #include "server/server_world.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::kNaN;
 using ::testing::HasSubstr;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kMaxPoints = 100'000;
 
 TEST(Messages, KeepAPoseToTheLastBit) {

@@ -4,13 +4,15 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "nbvopt/core/error.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
+
+using test::kNaN;
 
 using test::message_of;
 using testing::AllOf;
@@ -36,8 +38,6 @@ TEST_P(BadSensorOptions, AreNamedWithTheirValueInOneLine) {
                              Not(HasSubstr("\n"))));
 }
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 INSTANTIATE_TEST_SUITE_P(
     EveryField, BadSensorOptions,
     testing::Values(
@@ -51,13 +51,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"vertical_pixels", "20000", [](auto& s) { s.vertical_pixels = 20000; }},
         BadField{"range_min_m", "-0.1", [](auto& s) { s.range_min_m = -0.1; }},
         BadField{"range_min_m", "4", [](auto& s) { s.range_min_m = 4.0; }},
-        BadField{"range_max_m", "nan", [](auto& s) { s.range_max_m = kNan; }},
+        BadField{"range_max_m", "nan", [](auto& s) { s.range_max_m = kNaN; }},
         BadField{"range_max_m", "1001", [](auto& s) { s.range_max_m = 1001; }},
         BadField{"focal_distance_m", "-1", [](auto& s) { s.focal_distance_m = -1; }},
         BadField{"uncertainty_half_fov_horizontal_rad", "-1",
                  [](auto& s) { s.uncertainty_half_fov_horizontal_rad = -1; }},
         BadField{"uncertainty_half_fov_vertical_rad", "nan",
-                 [](auto& s) { s.uncertainty_half_fov_vertical_rad = kNan; }},
+                 [](auto& s) { s.uncertainty_half_fov_vertical_rad = kNaN; }},
         BadField{"occupied_uncertainty", "1.5", [](auto& s) { s.occupied_uncertainty = 1.5; }}));
 
 TEST(SensorOptions, EnumeratorsHaveTheNamesOfTheFiles) {

@@ -8,6 +8,7 @@
 
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
+#include "support/paths.hpp"
 #include "support/wait_until.hpp"
 
 namespace nbvopt {
@@ -224,7 +225,7 @@ TEST_F(ServerFaults, AFileThatGoesWhileItLoads) {
   int loaded = 0;
   constexpr int kTries = 20;
   for (int i = 0; i < kTries; ++i) {
-    std::filesystem::copy_file(NBVOPT_SOURCE_DIR "/datasets/office_partial.ot", file);
+    std::filesystem::copy_file(test::datasets_dir() / "office_partial.ot", file);
     // From "before it is opened" to "while it is read".
     std::thread remover([&, delay = std::chrono::microseconds(250 * i)] {
       std::this_thread::sleep_for(delay);

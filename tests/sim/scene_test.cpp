@@ -5,17 +5,15 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "nbvopt/core/error.hpp"
 #include "sim/box_mesh.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::test {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 float distance_m(const Scene& scene, const Eigen::Vector3d& origin,
                  const Eigen::Vector3f& direction, float range_max_m = 100.0F) {

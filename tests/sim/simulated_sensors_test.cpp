@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "nbvopt/core/error.hpp"
@@ -12,11 +11,10 @@
 #include "nbvopt/sim/simulated_lidar.hpp"
 #include "sim/box_mesh.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::test {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A wall across the x axis whose near face stands at this x, as wide and high as asked for.
 Scene wall_at(double x_m, double half_size_m = 50.0) {

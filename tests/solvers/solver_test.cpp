@@ -8,10 +8,12 @@
 #include <limits>
 
 #include "nbvopt/core/error.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::kNaN;
 using testing::HasSubstr;
 
 class Flat final : public Objective {
@@ -56,7 +58,6 @@ SolveRequest request_from(const Point& start) {
 }
 
 const Box kUnit{point(0, 0), point(1, 1)};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Solver, RunsFromAnyPointOfTheBoxItsFacesIncluded) {
   EXPECT_EQ(refusal(kUnit, request_from(point(0.5, 0.5))), "ran");
@@ -66,14 +67,14 @@ TEST(Solver, RunsFromAnyPointOfTheBoxItsFacesIncluded) {
 TEST(Solver, RefusesAStartOutsideTheBoxToTheLastBit) {
   EXPECT_THAT(refusal(kUnit, request_from(point(0.5, std::nextafter(1.0, 2.0)))),
               HasSubstr("start[1]"));
-  EXPECT_THAT(refusal(kUnit, request_from(point(kNan, 0.5))), HasSubstr("start[0]"));
+  EXPECT_THAT(refusal(kUnit, request_from(point(kNaN, 0.5))), HasSubstr("start[0]"));
   EXPECT_THAT(refusal(kUnit, request_from(Point::Zero(3))), HasSubstr("3 coordinates"));
 }
 
 TEST(Solver, RefusesBoundsThatAreCrossedOrNotFinite) {
   const SolveRequest request = request_from(point(0.5, 0.5));
   EXPECT_THAT(refusal({point(0, 0.6), point(1, 0.4)}, request), HasSubstr("lower[1]"));
-  EXPECT_THAT(refusal({point(kNan, 0), point(1, 1)}, request), HasSubstr("lower[0]"));
+  EXPECT_THAT(refusal({point(kNaN, 0), point(1, 1)}, request), HasSubstr("lower[0]"));
   EXPECT_THAT(refusal({point(0, 0), point(1, std::numeric_limits<double>::infinity())}, request),
               HasSubstr("upper[1]"));
   EXPECT_THAT(refusal({point(0, 0), Point::Ones(3)}, request), HasSubstr("box"));

@@ -8,6 +8,7 @@
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/planner.hpp"
 #include "support/oracle.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::study {
 namespace {

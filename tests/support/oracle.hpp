@@ -13,11 +13,9 @@
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/mast/mast.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt::test {
-
-inline std::filesystem::path datasets_dir() { return NBVOPT_SOURCE_DIR "/datasets"; }
-inline std::filesystem::path shared_dir() { return NBVOPT_SHARED_DIR; }
 
 /// Skips the test, saying so, where the shared maps and oracles are not there.
 #define NBVOPT_REQUIRE_SHARED()                                          \

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nbvopt/sim/world.hpp"
+#include "support/paths.hpp"
 
 namespace nbvopt {
 namespace {
@@ -33,7 +34,7 @@ constexpr std::uint64_t kCylinderTriangles = 64 * 4;
 class SharedWorlds : public testing::TestWithParam<SharedWorld> {};
 
 TEST_P(SharedWorlds, LoadAsTheirReadmeSays) {
-  const std::filesystem::path folder = std::filesystem::path(NBVOPT_SHARED_DIR) / "worlds";
+  const std::filesystem::path folder = test::shared_dir() / "worlds";
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << "the worlds of ../shared are not here, so this was not tested";
   }

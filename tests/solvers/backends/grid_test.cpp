@@ -9,10 +9,12 @@
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "solvers/point.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::point;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -39,12 +41,6 @@ class RecordedFunction final : public Objective {
   Function tie_cost_;
   mutable std::vector<std::vector<double>> points_;
 };
-
-Point point(std::initializer_list<double> coordinates) {
-  Point x(static_cast<Eigen::Index>(coordinates.size()));
-  std::copy(coordinates.begin(), coordinates.end(), x.begin());
-  return x;
-}
 
 RecordedFunction flat(Box box) {
   return {std::move(box), [](const Point&) { return 0.0; }, [](const Point&) { return 0.0; }};

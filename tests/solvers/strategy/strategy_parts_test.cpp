@@ -4,23 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "nbvopt/core/error.hpp"
+#include "solvers/point.hpp"
 #include "solvers/strategy/recording_objective.hpp"
 #include "solvers/strategy/separate_points.hpp"
 #include "solvers/strategy/shifted_period.hpp"
 #include "solvers/strategy/start_points.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::kNaN;
+using test::kPi;
+using test::point;
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The first coordinate's value; the first coordinate may turn. Counts its evaluations.
 class FirstCoordinate final : public Objective {
@@ -46,12 +46,6 @@ class FirstCoordinate final : public Objective {
   Box box_;
   double period_;
 };
-
-Point point(std::initializer_list<double> coordinates) {
-  Point x(static_cast<Eigen::Index>(coordinates.size()));
-  std::copy(coordinates.begin(), coordinates.end(), x.begin());
-  return x;
-}
 
 std::vector<std::vector<double>> lists(const std::vector<Point>& points) {
   std::vector<std::vector<double>> result;
@@ -102,7 +96,7 @@ TEST(SeparatePoints, SkipPointsNearABetterOneInSharesOfTheBox) {
   const FirstCoordinate f({point({0, 0}), point({1, 10})});
   const Eigen::MatrixXd points =
       (Eigen::MatrixXd(2, 5) << 0.5, 0.55, 0.55, 0.7, 0.5, 5, 5.5, 7, 5, 5).finished();
-  const std::vector<double> values{4, 5, 3, 2, kNan};
+  const std::vector<double> values{4, 5, 3, 2, kNaN};
   EXPECT_THAT(separate_points(f, points, values, 0.1, 9), ElementsAre(1, 2, 3));
   EXPECT_THAT(separate_points(f, points, values, 0.1, 2), ElementsAre(1, 2));
   EXPECT_THAT(separate_points(f, points, values, 0.0, 9), ElementsAre(1, 0, 2, 3));

@@ -9,16 +9,17 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <thread>
 
 #include "contract/solver_contract_problem.hpp"
 #include "nbvopt/core/error.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt {
 namespace {
 
+using test::kPi;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing_contract::quadratic;
@@ -27,7 +28,6 @@ using testing_contract::Record;
 using testing_contract::Textbook;
 using testing_contract::TextbookProblem;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTop = TextbookProblem::kTop;
 
 /// Local optima 1 apart along the first coordinate; the global one at (1.3, 5), on a face, and

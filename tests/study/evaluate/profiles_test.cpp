@@ -3,19 +3,18 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "study/evaluate/ratio.hpp"
 #include "study/made_results.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::study {
 namespace {
 
+using test::kNaN;
 using testing::DoubleEq;
 using testing::ElementsAre;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(PerformanceProfile, IsTheDistributionOfCostsOverTheLeast) {
   Results results = made_results({"auto", "slow", "never"}, {100.0, 100.0, 100.0, kNaN});

@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "nbvopt/core/error.hpp"
 #include "study/made_results.hpp"
+#include "support/numbers.hpp"
 
 namespace nbvopt::study {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using test::kNaN;
 
 TEST(GainRatio, IsTheShareOfTheReference) {
   const Results results = made_results({"auto"}, {200.0});

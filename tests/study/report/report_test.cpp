@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "core/text_file.hpp"
@@ -11,6 +10,7 @@
 #include "report/text_table.hpp"
 #include "study/made_results.hpp"
 #include "support/error_message.hpp"
+#include "support/numbers.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nbvopt::test {
@@ -22,8 +22,6 @@ using study::made_run;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(TextTable, IsRoundedForPeople) {
   const TextTable table{{{"name", "name"}, {"", "count"}, {"only_machines", ""}},
