@@ -8,6 +8,7 @@
 #include "cli/map_output.hpp"
 #include "cli/terminal/output.hpp"
 #include "core/stopwatch.hpp"
+#include "map/map_format_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -36,14 +37,14 @@ void run_info(const InfoOptions& options) {
 }
 
 void run_convert(const ConvertOptions& options) {
-  const auto [name, format] = output_format(options.format, options.output_file);
+  const MapFormat format = output_format(options.format, options.output_file);
   const UncertaintyMap map = read_map(options.input_file);
   write_map(map, options.output_file, format);
   if (options.json) {
-    print_answer(
-        to_text(Json{{"map", options.input_file}, {"out", options.output_file}, {"format", name}}));
+    print_answer(to_text(Json{
+        {"map", options.input_file}, {"out", options.output_file}, {"format", to_string(format)}}));
   } else {
-    print_answer(options.output_file + " (" + name + ") written\n");
+    print_answer(options.output_file + " (" + to_string(format) + ") written\n");
   }
 }
 
@@ -69,7 +70,7 @@ void set_up_convert(CLI::App& map) {
                    "uncertainty-ot: all that the map holds; bt: free and occupied only; colour-ot: "
                    "a ColorOcTree for octovis; ply: points; both coloured from red (uncertain) to "
                    "green (reliable) [as OUT's extension says]")
-      ->check(CLI::IsMember({"uncertainty-ot", "bt", "colour-ot", "ply"}))
+      ->check(CLI::IsMember(enum_names<MapFormat>()))
       ->type_name("NAME");
   convert->add_flag("--json", options->json, "print one JSON object instead of text");
   convert->footer(

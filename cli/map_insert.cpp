@@ -46,7 +46,7 @@ UncertaintyMap map_of(const InsertOptions& options) {
 void run_insert(InsertOptions& options) {
   const std::string& output_file =
       options.output_file.empty() ? options.map_file : options.output_file;
-  const auto [name, format] = output_format("", output_file);
+  const MapFormat format = output_format("", output_file);
   require_writable(output_file);
   if (format == MapFormat::bt) {
     print_message("warning: " + output_file + " cannot keep the uncertainty, give --out FILE.ot");

@@ -5,17 +5,11 @@
 #include <filesystem>
 
 #include "core/number.hpp"
+#include "map/map_format_names.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 namespace {
-
-constexpr std::array<std::pair<const char*, MapFormat>, 4> kFormats{{
-    {"uncertainty-ot", MapFormat::uncertainty_ot},
-    {"bt", MapFormat::bt},
-    {"colour-ot", MapFormat::colour_ot},
-    {"ply", MapFormat::colour_ply},
-}};
 
 /// A number for people.
 std::string rounded(double value, int digits) {
@@ -34,19 +28,17 @@ Json point_json(const Eigen::Vector3d& p_map_m) { return {p_map_m.x(), p_map_m.y
 
 }  // namespace
 
-std::pair<const char*, MapFormat> output_format(const std::string& name, const std::string& file) {
+MapFormat output_format(const std::string& name, const std::string& file) {
   std::string wanted = name;
   if (wanted.empty()) {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension.empty() || extension == ".ot") {
-      wanted = "uncertainty-ot";
+      wanted = to_string(MapFormat::uncertainty_ot);
     } else {
       wanted = extension.substr(1);
     }
   }
-  for (const auto& format : kFormats) {
-    if (wanted == format.first) return format;
-  }
+  if (const auto format = enum_value<MapFormat>(wanted)) return *format;
   throw UsageError(file + ": the extension tells no format, end it in .ot, .bt or .ply, or give " +
                    "--format");
 }

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <string>
-#include <utility>
 
 #include "core/json.hpp"
 #include "nbvopt/map/map_file.hpp"
 
 namespace nbvopt {
 
-/// The format of that name or, where it is empty, of the file's extension, with its name. Throws
-/// UsageError when the extension tells none.
-std::pair<const char*, MapFormat> output_format(const std::string& name, const std::string& file);
+/// The format of that name or, where it is empty, of the file's extension. Throws UsageError when
+/// the extension tells none.
+MapFormat output_format(const std::string& name, const std::string& file);
 
 /// What `nbvopt map info` tells of a map.
 Json map_json(const UncertaintyMap& map);

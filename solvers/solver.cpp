@@ -3,9 +3,22 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/enum_names.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
+
+template <>
+inline constexpr auto kEnumNames<SolveStatus> = std::to_array<EnumName<SolveStatus>>({
+    {SolveStatus::not_run, "not_run"},
+    {SolveStatus::converged, "converged"},
+    {SolveStatus::stalled, "stalled"},
+    {SolveStatus::grid_complete, "grid_complete"},
+    {SolveStatus::evaluation_limit, "evaluation_limit"},
+    {SolveStatus::time_limit, "time_limit"},
+    {SolveStatus::cancelled, "cancelled"},
+});
+
 namespace {
 
 std::string coordinate_text(const char* name, Eigen::Index i, double value) {
@@ -50,25 +63,7 @@ void check_start(const Point& start, const Box& box) {
 
 }  // namespace
 
-std::string to_string(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::not_run:
-      return "not_run";
-    case SolveStatus::converged:
-      return "converged";
-    case SolveStatus::stalled:
-      return "stalled";
-    case SolveStatus::grid_complete:
-      return "grid_complete";
-    case SolveStatus::evaluation_limit:
-      return "evaluation_limit";
-    case SolveStatus::time_limit:
-      return "time_limit";
-    case SolveStatus::cancelled:
-      return "cancelled";
-  }
-  throw UsageError("SolveStatus: unknown value " + std::to_string(static_cast<int>(status)));
-}
+std::string to_string(SolveStatus value) { return std::string(enum_name(value)); }
 
 SolveResult Solver::solve(const Objective& objective, const SolveRequest& request) const {
   check_box(objective.box());

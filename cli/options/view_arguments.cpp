@@ -6,7 +6,7 @@
 
 #include "cli/options/arguments.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/planner/robot_fields.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 
@@ -26,7 +26,7 @@ void add_view_arguments(CLI::App& app, ViewArguments& arguments) {
       ->capture_default_str();
   app.add_option("--counting", arguments.counting,
                  "per_ray: sum over rays; per_voxel: each voxel once (Eq. 13) [as the robot says]")
-      ->check(CLI::IsMember({"per_ray", "per_voxel"}))
+      ->check(CLI::IsMember(enum_names<Counting>()))
       ->type_name("NAME");
   add_robot_arguments(app, arguments);
 }
@@ -49,8 +49,7 @@ Robot make_robot(const ViewArguments& arguments) {
 
 void set_counting(SensorOptions& sensor, const ViewArguments& arguments) {
   if (arguments.counting.empty()) return;
-  const std::vector<FieldSetting> settings{{"counting", arguments.counting}};
-  set_fields(sensor, settings, "--counting");
+  sensor.counting = enum_value<Counting>(arguments.counting).value();
 }
 
 }  // namespace nbvopt

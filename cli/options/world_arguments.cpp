@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/terminal/output.hpp"
+#include "sim/world/world_names.hpp"
 
 namespace nbvopt {
 
@@ -17,7 +18,7 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
                  "may be given several times")
       ->type_name("DIR");
   app.add_option("--geometry", arguments.geometry, "which shapes of the models to take")
-      ->check(CLI::IsMember({"visual", "collision"}))
+      ->check(CLI::IsMember(enum_names<WorldGeometry>()))
       ->type_name("NAME")
       ->capture_default_str();
   app.add_flag("--strict", arguments.is_strict,
@@ -36,8 +37,7 @@ World read_world(const WorldArguments& arguments) {
   for (std::filesystem::path& path : gazebo_model_paths()) {
     options.model_paths.push_back(std::move(path));
   }
-  options.geometry =
-      arguments.geometry == "collision" ? WorldGeometry::collision : WorldGeometry::visual;
+  options.geometry = enum_value<WorldGeometry>(arguments.geometry).value();
   options.is_strict = arguments.is_strict;
   if (!arguments.cache_folder.empty()) {
     options.cache_folder = arguments.cache_folder;

@@ -8,6 +8,7 @@
 #include "core/text_file.hpp"
 #include "nbvopt/v1/planner.grpc.pb.h"
 #include "protocol/messages.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -113,7 +114,7 @@ RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search)
   }
   const v1::PlanReply reply = connection_->call(&v1::Planner::Stub::Plan, message);
   RemotePlan plan{.result = from_message(reply)};
-  if (reply.counting() == to_string(Counting::per_voxel)) plan.counting = Counting::per_voxel;
+  plan.counting = enum_value<Counting>(reply.counting()).value_or(Counting::per_ray);
   return plan;
 }
 

@@ -4,11 +4,22 @@
 
 #include <cmath>
 
+#include "core/enum_names.hpp"
 #include "gain/camera_pose_check.hpp"
 #include "gain/ray_walk.hpp"
 #include "map/brick_table.hpp"
 
 namespace nbvopt {
+
+template <>
+inline constexpr auto kEnumNames<SimdLevel> = std::to_array<EnumName<SimdLevel>>({
+    {SimdLevel::best, "best"},
+    {SimdLevel::avx512, "avx512"},
+    {SimdLevel::avx2, "avx2"},
+    {SimdLevel::sse4, "sse4"},
+    {SimdLevel::scalar, "scalar"},
+});
+
 namespace {
 
 using detail::brick_at;
@@ -90,21 +101,7 @@ void RayHits::resize(std::size_t n) {
   direction_z.resize(n);
 }
 
-const char* to_string(SimdLevel level) {
-  switch (level) {
-    case SimdLevel::best:
-      return "best";
-    case SimdLevel::avx512:
-      return "avx512";
-    case SimdLevel::avx2:
-      return "avx2";
-    case SimdLevel::sse4:
-      return "sse4";
-    case SimdLevel::scalar:
-      return "scalar";
-  }
-  return "?";
-}
+const char* to_string(SimdLevel level) { return enum_name(level).data(); }
 
 std::vector<SimdLevel> supported_simd_levels() {
   std::vector<SimdLevel> levels;

@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
+#include "map/map_format_names.hpp"
 #include "map/map_header.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
@@ -149,6 +150,8 @@ std::string ply_file(const UncertaintyMap& map) {
 }
 
 }  // namespace
+
+std::string to_string(MapFormat value) { return std::string(enum_name(value)); }
 
 std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
   switch (format) {

@@ -5,10 +5,19 @@
 #include <limits>
 #include <numbers>
 
+#include "core/enum_names.hpp"
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
+
+template <>
+inline constexpr auto kEnumNames<Joint> = std::to_array<EnumName<Joint>>({
+    {Joint::pan, "pan"},
+    {Joint::tilt, "tilt"},
+    {Joint::height, "height"},
+});
+
 namespace {
 
 /// The limits of all joints; a continuous pan has none.
@@ -30,17 +39,7 @@ double clamp_tolerance(Joint joint) { return joint == Joint::height ? 0.005 : 0.
 
 }  // namespace
 
-std::string to_string(Joint joint) {
-  switch (joint) {
-    case Joint::pan:
-      return "pan";
-    case Joint::tilt:
-      return "tilt";
-    case Joint::height:
-      break;
-  }
-  return "height";
-}
+std::string to_string(Joint value) { return std::string(enum_name(value)); }
 
 Mast::Mast(const MastOptions& options) : options_(options) {
   options_.validate();

@@ -1,7 +1,6 @@
 // The one list of the robot's fields: key, field, and the comment that the robot file shows.
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -9,22 +8,6 @@
 #include "nbvopt/sensor/sensor_options.hpp"
 
 namespace nbvopt {
-
-/// The enumerators of an option, in the order in which messages list them.
-template <class Enum>
-inline constexpr std::array<Enum, 0> kEnumerators{};
-template <>
-inline constexpr std::array kEnumerators<RayPattern>{RayPattern::pixel_centres,
-                                                     RayPattern::equal_angles};
-template <>
-inline constexpr std::array kEnumerators<RangeAxis>{RangeAxis::euclidean, RangeAxis::z_depth};
-template <>
-inline constexpr std::array kEnumerators<UncertaintyMode>{
-    UncertaintyMode::distance, UncertaintyMode::angle, UncertaintyMode::both};
-template <>
-inline constexpr std::array kEnumerators<Counting>{Counting::per_ray, Counting::per_voxel};
-template <>
-inline constexpr std::array kEnumerators<NoReturn>{NoReturn::clear, NoReturn::ignore};
 
 template <class T, class Options>
 concept ConstOrNot = std::same_as<std::remove_const_t<T>, Options>;

@@ -83,26 +83,6 @@ bool was_cut_short(SolveStatus status, const StopRule& stop) {
 
 }  // namespace
 
-std::string to_string(PlanStatus status) {
-  switch (status) {
-    case PlanStatus::not_run:
-      return "not_run";
-    case PlanStatus::optimal_within_tolerance:
-      return "optimal_within_tolerance";
-    case PlanStatus::grid_complete:
-      return "grid_complete";
-    case PlanStatus::evaluation_limit:
-      return "evaluation_limit";
-    case PlanStatus::time_limit:
-      return "time_limit";
-    case PlanStatus::no_gain_in_reach:
-      return "no_gain_in_reach";
-    case PlanStatus::cancelled:
-      return "cancelled";
-  }
-  return "?";
-}
-
 PanoramaOptions planning_panorama(Counting counting) {
   constexpr double kLayerSpacing = 6.0;
   return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,

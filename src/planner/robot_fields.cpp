@@ -6,6 +6,7 @@
 #include "nbvopt/core/error.hpp"
 #include "planner/field_table.hpp"
 #include "planner/field_value.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -15,15 +16,15 @@ using nbvopt::store;
 template <class Enum>
 requires std::is_enum_v<Enum> std::string store(const FieldValue& value, Enum& field) {
   const auto* name = std::get_if<std::string>(&value);
-  std::string known;
-  for (const Enum enumerator : kEnumerators<Enum>) {
-    if (name != nullptr && *name == to_string(enumerator)) {
-      field = enumerator;
-      return {};
-    }
-    known += (known.empty() ? "one of " : ", ") + to_string(enumerator);
+  if (const auto known = name ? enum_value<Enum>(*name) : std::nullopt) {
+    field = *known;
+    return {};
   }
-  return known;
+  std::string demand;
+  for (const std::string& known : enum_names<Enum>()) {
+    demand += (demand.empty() ? "one of " : ", ") + known;
+  }
+  return demand;
 }
 
 template <class Options>

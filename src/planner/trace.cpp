@@ -4,10 +4,6 @@
 
 namespace nbvopt {
 
-std::string to_string(EvaluationKind kind) {
-  return kind == EvaluationKind::exact ? "exact" : "surrogate";
-}
-
 std::string to_json_lines(const std::vector<TracePoint>& trace) {
   std::string lines;
   for (std::size_t i = 0; i < trace.size(); ++i) {

@@ -8,8 +8,6 @@
 
 namespace nbvopt {
 
-std::string to_string(EvaluationKind kind);
-
 /// One JSON object a line and evaluation, in order: its number, kind, joints and gain, the best
 /// gain so far (null before the first exact one) and the time since the search began.
 std::string to_json_lines(const std::vector<TracePoint>& trace);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/enum_names.hpp"
 #include "core/field_check.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/depth_image.hpp"
@@ -39,23 +40,21 @@ Eigen::Matrix3d rotation_from(const v1::Pose& pose, const std::string& field) {
   return rotation;
 }
 
-using StatusName = std::pair<PlanStatus, v1::PlanStatus>;
-constexpr std::array<StatusName, 6> kStatuses{{
+constexpr auto kStatuses = std::to_array<EnumName<PlanStatus, v1::PlanStatus>>({
     {PlanStatus::optimal_within_tolerance, v1::PLAN_STATUS_OPTIMAL_WITHIN_TOLERANCE},
     {PlanStatus::grid_complete, v1::PLAN_STATUS_GRID_COMPLETE},
     {PlanStatus::evaluation_limit, v1::PLAN_STATUS_EVALUATION_LIMIT},
     {PlanStatus::time_limit, v1::PLAN_STATUS_TIME_LIMIT},
     {PlanStatus::no_gain_in_reach, v1::PLAN_STATUS_NO_GAIN_IN_REACH},
     {PlanStatus::cancelled, v1::PLAN_STATUS_CANCELLED},
-}};
+});
 
-using FormatName = std::pair<MapFormat, v1::MapFormat>;
-constexpr std::array<FormatName, 4> kFormats{{
+constexpr auto kFormats = std::to_array<EnumName<MapFormat, v1::MapFormat>>({
     {MapFormat::uncertainty_ot, v1::MAP_FORMAT_UNCERTAINTY_OT},
     {MapFormat::bt, v1::MAP_FORMAT_BT},
     {MapFormat::colour_ot, v1::MAP_FORMAT_COLOUR_OT},
     {MapFormat::colour_ply, v1::MAP_FORMAT_COLOUR_PLY},
-}};
+});
 
 constexpr std::size_t kPointBytes = 3 * sizeof(float);
 
@@ -205,9 +204,7 @@ ViewGain from_message(const v1::ViewGain& view) {
 
 MapFormat from_message(v1::MapFormat format) {
   if (format == v1::MAP_FORMAT_UNSPECIFIED) return MapFormat::uncertainty_ot;
-  for (const auto& [own, message] : kFormats) {
-    if (message == format) return own;
-  }
+  if (const auto own = value_in(kFormats, format)) return *own;
   throw InputError("format is " + std::to_string(format) + ", which is no map format");
 }
 
@@ -234,9 +231,7 @@ PlanRequest from_message(const v1::PlanRequest& message) {
 
 PlanResult from_message(const v1::PlanReply& reply) {
   PlanResult result;
-  for (const auto& [own, message] : kStatuses) {
-    if (message == reply.status()) result.status = own;
-  }
+  result.status = value_in(kStatuses, reply.status()).value_or(PlanStatus::not_run);
   result.message = reply.message();
   result.joints = from_message(reply.joints(), "joints");
   result.T_map_sensor = from_message(reply.sensor(), "sensor");
@@ -340,10 +335,7 @@ v1::ViewGain to_message(const ViewGain& view) {
 }
 
 v1::MapFormat to_message(MapFormat format) {
-  for (const auto& [own, message] : kFormats) {
-    if (own == format) return message;
-  }
-  return v1::MAP_FORMAT_UNSPECIFIED;
+  return name_in(kFormats, format).value_or(v1::MAP_FORMAT_UNSPECIFIED);
 }
 
 v1::PlanRequest to_message(const PlanRequest& request) {
@@ -367,9 +359,7 @@ v1::PlanRequest to_message(const PlanRequest& request) {
 
 v1::PlanReply to_message(const PlanResult& result) {
   v1::PlanReply reply;
-  for (const auto& [own, message] : kStatuses) {
-    if (own == result.status) reply.set_status(message);
-  }
+  reply.set_status(name_in(kStatuses, result.status).value_or(v1::PLAN_STATUS_UNSPECIFIED));
   reply.set_message(result.message);
   *reply.mutable_joints() = to_message(result.joints);
   *reply.mutable_sensor() = to_message(result.T_map_sensor);

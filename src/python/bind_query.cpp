@@ -88,16 +88,12 @@ PlanResult query(const std::shared_ptr<SharedMap>& map, const Robot& robot, cons
   return planner.plan(request, *search);
 }
 
-const char* kind_name(EvaluationKind kind) {
-  return kind == EvaluationKind::exact ? "exact" : "surrogate";
-}
-
 /// Every evaluation of the search, an array a field.
 py::dict trace_arrays(const PlanResult& result) {
   py::list kinds;
   std::vector<Eigen::Vector3d> joints;
   for (const TracePoint& point : result.trace) {
-    kinds.append(kind_name(point.kind));
+    kinds.append(to_string(point.kind));
     joints.push_back(point.joints.vector());
   }
   const auto column = [&](double TracePoint::*field) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/field_check.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -54,30 +55,14 @@ void SensorOptions::validate() const {
               "sensor.occupied_uncertainty", occupied_uncertainty, "from 0 to 1");
 }
 
-std::string to_string(RayPattern value) {
-  return value == RayPattern::pixel_centres ? "pixel_centres" : "equal_angles";
-}
+std::string to_string(RayPattern value) { return std::string(enum_name(value)); }
 
-std::string to_string(RangeAxis value) {
-  return value == RangeAxis::euclidean ? "euclidean" : "z_depth";
-}
+std::string to_string(RangeAxis value) { return std::string(enum_name(value)); }
 
-std::string to_string(UncertaintyMode value) {
-  switch (value) {
-    case UncertaintyMode::distance:
-      return "distance";
-    case UncertaintyMode::angle:
-      return "angle";
-    case UncertaintyMode::both:
-      break;
-  }
-  return "both";
-}
+std::string to_string(UncertaintyMode value) { return std::string(enum_name(value)); }
 
-std::string to_string(Counting value) {
-  return value == Counting::per_ray ? "per_ray" : "per_voxel";
-}
+std::string to_string(Counting value) { return std::string(enum_name(value)); }
 
-std::string to_string(NoReturn value) { return value == NoReturn::clear ? "clear" : "ignore"; }
+std::string to_string(NoReturn value) { return std::string(enum_name(value)); }
 
 }  // namespace nbvopt

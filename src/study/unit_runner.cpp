@@ -11,7 +11,7 @@
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "planner/field_table.hpp"
+#include "sensor/sensor_names.hpp"
 #include "study/reference_search.hpp"
 #include "study/spec/start_sampling.hpp"
 
@@ -156,8 +156,8 @@ Json UnitRunner::run_query(const WorkUnit& unit) {
   std::vector<double> progress_ms;
   const Json progress = progress_json(result.trace, exact, request, mast, is_exact, progress_ms);
   Json gain_by_mode = Json::object();
-  for (const UncertaintyMode mode : kEnumerators<UncertaintyMode>) {
-    gain_by_mode[to_string(mode)] = scene_->exact(mode).evaluate(result.T_map_sensor).gain;
+  for (const auto& [mode, name] : kEnumNames<UncertaintyMode>) {
+    gain_by_mode[std::string(name)] = scene_->exact(mode).evaluate(result.T_map_sensor).gain;
   }
   return {{"status", to_string(result.status)},
           {"joints", joints_json(result.joints)},

@@ -20,6 +20,7 @@ enum class MapFormat {
   colour_ot,       ///< .ot of type ColorOcTree, the colour telling u (octovis opens it)
   colour_ply,      ///< .ply, one coloured point an occupied voxel
 };
+std::string to_string(MapFormat format);
 
 /// Reads a map. Throws InputError when the file is missing, empty, truncated, damaged, or of a
 /// tree type that is not known; the message names the file.

@@ -47,6 +47,7 @@ enum class EvaluationKind {
   exact,      ///< by the evaluator
   surrogate,  ///< by what strategies search on
 };
+std::string to_string(EvaluationKind kind);
 
 /// One evaluation of a search.
 struct TracePoint {

@@ -1,7 +1,9 @@
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "nbvopt/sim/exploration.hpp"
 #include "sim/exploration/frontier_filter.hpp"
 #include "sim/exploration/frontier_trees.hpp"
@@ -9,6 +11,13 @@
 #include "sim/exploration/plane_robot.hpp"
 
 namespace nbvopt {
+
+template <>
+inline constexpr auto kEnumNames<ExplorationStatus> = std::to_array<EnumName<ExplorationStatus>>({
+    {ExplorationStatus::complete, "complete"},
+    {ExplorationStatus::time_limit, "time_limit"},
+});
+
 namespace {
 
 /// How many scans the robot waits for its trees to find a frontier before it looks everywhere.
@@ -107,9 +116,7 @@ std::vector<Eigen::Vector2d> Explorer::reachable_border() const {
 
 }  // namespace
 
-std::string to_string(ExplorationStatus status) {
-  return status == ExplorationStatus::complete ? "complete" : "time_limit";
-}
+std::string to_string(ExplorationStatus value) { return std::string(enum_name(value)); }
 
 Exploration explore(const Scene& scene, const Transform& T_map_base,
                     const ExplorationOptions& options) {

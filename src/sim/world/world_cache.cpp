@@ -13,6 +13,7 @@
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/world/byte_archive.hpp"
+#include "sim/world/world_names.hpp"
 
 namespace nbvopt {
 
@@ -97,7 +98,8 @@ WorldCache::WorldCache(const fs::path& folder, const fs::path& world_file,
     : folder_(folder) {
   const fs::path canonical = fs::weakly_canonical(world_file);
   key_ = canonical.string();
-  key_ += options.geometry == WorldGeometry::visual ? "\nvisual" : "\ncollision";
+  key_ += '\n';
+  key_ += enum_name(options.geometry);
   for (const fs::path& path : options.model_paths) {
     key_ += "\n" + fs::weakly_canonical(path).string();
   }
