@@ -6,8 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "solvers/best_seen.hpp"
-#include "solvers/stop_status.hpp"
+#include "solvers/answer.hpp"
 
 namespace nbvopt {
 namespace {

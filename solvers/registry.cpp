@@ -1,88 +1,68 @@
 #include "nbvopt/solver/registry.hpp"
 
-#include <array>
+#include <algorithm>
 
 #include "nbvopt/core/error.hpp"
-#include "solvers/backends/ceres.hpp"
-#include "solvers/backends/grid.hpp"
-#include "solvers/backends/nlopt.hpp"
-#include "solvers/backends/random.hpp"
-#include "solvers/strategy/strategy.hpp"
+#include "solvers/families.hpp"
 
 namespace nbvopt {
 namespace {
 
-struct Entry {
-  const char* name;
-  std::unique_ptr<Solver> (*make)(const std::string& name, const SolverOptions& options);
-};
+constexpr const char* kDefaultSolver = "auto";
 
-std::unique_ptr<Solver> make_auto(const std::string& name, const SolverOptions&) {
-  return std::make_unique<StrategySolver>(name, StrategyOptions{});
+/// Every family; a new one is added here and nowhere else.
+const std::vector<SolverFamily>& families() {
+  static const std::vector<SolverFamily> kFamilies{strategy_family(), grid_family(),
+                                                   random_family(), nlopt_family(), ceres_family()};
+  return kFamilies;
 }
 
-std::unique_ptr<Solver> make_grid(const std::string&, const SolverOptions& options) {
-  return std::make_unique<GridSolver>(options.grid_steps);
-}
-
-std::unique_ptr<Solver> make_random(const std::string&, const SolverOptions&) {
-  return std::make_unique<RandomSolver>();
-}
-
-std::unique_ptr<Solver> make_nlopt(const std::string& name, const SolverOptions& options) {
-  return std::make_unique<NloptSolver>(name, options.tolerance, options.initial_step);
-}
-
-std::unique_ptr<Solver> make_ceres_lbfgs(const std::string&, const SolverOptions& options) {
-  return std::make_unique<CeresLbfgsSolver>(options.tolerance);
-}
-
-std::unique_ptr<Solver> make_ceres_lm(const std::string&, const SolverOptions& options) {
-  return std::make_unique<CeresLmSolver>(options.tolerance);
-}
-
-/// Every solver; a new one is added here and nowhere else.
-constexpr std::array kSolvers{
-    Entry{"auto", make_auto},
-    Entry{"grid", make_grid},
-    Entry{"random", make_random},
-    Entry{"nlopt:direct-l", make_nlopt},
-    Entry{"nlopt:crs2", make_nlopt},
-    Entry{"nlopt:isres", make_nlopt},
-    Entry{"nlopt:esch", make_nlopt},
-    Entry{"nlopt:mlsl-lds", make_nlopt},
-    Entry{"nlopt:stogo", make_nlopt},
-    Entry{"nlopt:ags", make_nlopt},
-    Entry{"nlopt:lbfgs", make_nlopt},
-    Entry{"nlopt:slsqp", make_nlopt},
-    Entry{"nlopt:mma", make_nlopt},
-    Entry{"nlopt:bobyqa", make_nlopt},
-    Entry{"nlopt:sbplx", make_nlopt},
-    Entry{"nlopt:cobyla", make_nlopt},
-    Entry{"ceres:lbfgs", make_ceres_lbfgs},
-    Entry{"ceres:lm", make_ceres_lm},
-};
-
-std::string known_names() {
-  std::string names;
-  for (const Entry& entry : kSolvers)
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  return names;
+/// Null for a name that is not known.
+const SolverFamily* family_of(const std::string& name) {
+  const auto family = std::ranges::find_if(families(), [&](const SolverFamily& candidate) {
+    return std::ranges::find(candidate.names, name) != candidate.names.end();
+  });
+  return family == families().end() ? nullptr : &*family;
 }
 
 }  // namespace
 
 std::vector<std::string> solver_names() {
   std::vector<std::string> names;
-  for (const Entry& entry : kSolvers) names.emplace_back(entry.name);
+  for (const SolverFamily& family : families()) {
+    names.insert(names.end(), family.names.begin(), family.names.end());
+  }
   return names;
 }
 
-std::unique_ptr<Solver> make_solver(const std::string& name, const SolverOptions& options) {
-  for (const Entry& entry : kSolvers) {
-    if (entry.name == name) return entry.make(name, options);
+bool heeds(const std::string& solver, SearchParameters parameters) {
+  const SolverFamily* family = family_of(solver);
+  return family != nullptr && family->heeds == parameters;
+}
+
+std::vector<std::string> solvers_that_heed(SearchParameters parameters) {
+  std::vector<std::string> labels;
+  for (const SolverFamily& family : families()) {
+    if (family.heeds == parameters) labels.push_back(family.label);
   }
-  throw UsageError("solver \"" + name + "\" is not known: use one of " + known_names());
+  return labels;
+}
+
+std::unique_ptr<Solver> make_solver(const Search& search) {
+  if (search.solver && search.stages) {
+    throw UsageError(
+        "solver names a whole search and global, local, polish compose one: give either");
+  }
+  const std::string name = search.solver.value_or(kDefaultSolver);
+  if (const SolverFamily* family = family_of(name)) return family->make(name, search);
+  std::string known;
+  for (const std::string& each : solver_names()) known += (known.empty() ? "" : ", ") + each;
+  throw UsageError("solver \"" + name + "\" is not known: use one of " + known);
+}
+
+std::unique_ptr<Solver> make_solver(const std::string& name, Search parameters) {
+  parameters.solver = name;
+  return make_solver(parameters);
 }
 
 }  // namespace nbvopt

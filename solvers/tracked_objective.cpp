@@ -1,6 +1,6 @@
 #include "solvers/tracked_objective.hpp"
 
-#include "solvers/stop_status.hpp"
+#include "solvers/answer.hpp"
 
 namespace nbvopt {
 

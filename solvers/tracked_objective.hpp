@@ -8,7 +8,7 @@
 #include <string>
 
 #include "nbvopt/solver/solver.hpp"
-#include "solvers/best_seen.hpp"
+#include "solvers/answer.hpp"
 
 namespace nbvopt {
 

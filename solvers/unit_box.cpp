@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 
@@ -39,6 +42,13 @@ Point UnitBox::unit_gradient(const Point& gradient) const {
 
 Eigen::MatrixXd UnitBox::unit_jacobian(const Eigen::MatrixXd& jacobian) const {
   return jacobian(Eigen::all, free_) * width_.asDiagonal();
+}
+
+double checked_tolerance(double tolerance) {
+  if (std::isfinite(tolerance) && tolerance > 0.0) return tolerance;
+  std::ostringstream text;
+  text << "tolerance = " << tolerance << ": give a finite number of length scales above 0";
+  throw UsageError(text.str());
 }
 
 }  // namespace nbvopt

@@ -1,4 +1,5 @@
-// The coordinates of a box that can move, scaled to [0, 1].
+// The coordinates of a box that can move, scaled to [0, 1], and the tolerance that searches over
+// them have.
 #pragma once
 
 #include <vector>
@@ -37,5 +38,8 @@ class UnitBox {
   Point width_;  ///< of the free coordinates
   Point unit_start_;
 };
+
+/// The tolerance as it is. Throws UsageError unless it is above 0 and finite.
+double checked_tolerance(double tolerance);
 
 }  // namespace nbvopt

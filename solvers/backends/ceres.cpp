@@ -1,5 +1,4 @@
-#include "solvers/backends/ceres.hpp"
-
+// The two local searches of the Ceres library.
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -7,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "solvers/stop_status.hpp"
-#include "solvers/tolerance.hpp"
+#include "solvers/answer.hpp"
+#include "solvers/families.hpp"
 #include "solvers/tracked_objective.hpp"
 #include "solvers/unit_box.hpp"
 
@@ -101,6 +100,37 @@ class ResidualCost final : public ceres::CostFunction {
   const UnitBox& unit_box_;
 };
 
+/// Ceres' L-BFGS. Its general problems have no bounds, so each coordinate runs over a sine,
+/// u = (1 + sin t) / 2, whose ends are the box's faces.
+class CeresLbfgsSolver final : public Solver {
+ public:
+  /// `tolerance` as in Search. Throws UsageError when it is not above 0 and finite.
+  explicit CeresLbfgsSolver(double tolerance);
+
+  std::string name() const override { return "ceres:lbfgs"; }
+  SolverNeeds needs() const override { return {.gradient = true}; }
+
+ private:
+  SolveResult do_solve(const Objective& objective, const SolveRequest& request) const override;
+
+  double tolerance_;
+};
+
+/// Ceres' Levenberg-Marquardt over the objective's residuals, with the box as bounds.
+class CeresLmSolver final : public Solver {
+ public:
+  /// `tolerance` as in Search. Throws UsageError when it is not above 0 and finite.
+  explicit CeresLmSolver(double tolerance);
+
+  std::string name() const override { return "ceres:lm"; }
+  SolverNeeds needs() const override { return {.residuals = true}; }
+
+ private:
+  SolveResult do_solve(const Objective& objective, const SolveRequest& request) const override;
+
+  double tolerance_;
+};
+
 }  // namespace
 
 CeresLbfgsSolver::CeresLbfgsSolver(double tolerance) : tolerance_(checked_tolerance(tolerance)) {}
@@ -158,6 +188,16 @@ SolveResult CeresLmSolver::do_solve(const Objective& objective, const SolveReque
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return tracked.result(status_of(summary.termination_type), "Ceres: " + summary.message);
+}
+
+SolverFamily ceres_family() {
+  return {.label = "ceres:*",
+          .names = {"ceres:lbfgs", "ceres:lm"},
+          .heeds = SearchParameters::tolerances,
+          .make = [](const std::string& name, const Search& search) -> std::unique_ptr<Solver> {
+            if (name == "ceres:lm") return std::make_unique<CeresLmSolver>(search.tolerance);
+            return std::make_unique<CeresLbfgsSolver>(search.tolerance);
+          }};
 }
 
 }  // namespace nbvopt

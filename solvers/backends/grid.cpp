@@ -1,5 +1,4 @@
-#include "solvers/backends/grid.hpp"
-
+// The paper's discretised search, Algorithms 1 and 2.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/grid_coordinates.hpp"
 #include "solvers/batch_search.hpp"
+#include "solvers/families.hpp"
 
 namespace nbvopt {
 namespace {
@@ -76,6 +76,24 @@ class CandidateLattice {
   bool is_spent_ = false;
 };
 
+/// Evaluates the start and every point of a lattice over the box, and takes the best. The lattice
+/// begins at the box's lower end; a coordinate whose step is 0 stays at the start's value.
+class GridSolver final : public Solver {
+ public:
+  static constexpr double kMaxCandidates = 1e7;
+
+  /// One step a coordinate. Throws UsageError when one is negative or not finite.
+  explicit GridSolver(std::vector<double> steps);
+
+  std::string name() const override { return "grid"; }
+
+ private:
+  /// Throws UsageError when there is not one step a coordinate, or more than kMaxCandidates.
+  SolveResult do_solve(const Objective& objective, const SolveRequest& request) const override;
+
+  std::vector<double> steps_;
+};
+
 }  // namespace
 
 std::vector<double> grid_coordinates(double lower, double upper, double step) {
@@ -117,6 +135,15 @@ SolveResult GridSolver::do_solve(const Objective& objective, const SolveRequest&
     return candidate == request.start ? lattice.next() : candidate;
   };
   return batch_search(objective, request, next_candidate, SolveStatus::grid_complete);
+}
+
+SolverFamily grid_family() {
+  return {.label = "grid",
+          .names = {"grid"},
+          .heeds = SearchParameters::grid_steps,
+          .make = [](const std::string&, const Search& search) -> std::unique_ptr<Solver> {
+            return std::make_unique<GridSolver>(search.grid_steps);
+          }};
 }
 
 }  // namespace nbvopt

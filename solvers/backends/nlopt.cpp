@@ -1,5 +1,4 @@
-#include "solvers/backends/nlopt.hpp"
-
+// The algorithms of the NLopt library.
 #include <nlopt.h>
 
 #include <algorithm>
@@ -14,8 +13,8 @@
 #include <type_traits>
 
 #include "nbvopt/core/error.hpp"
-#include "solvers/stop_status.hpp"
-#include "solvers/tolerance.hpp"
+#include "solvers/answer.hpp"
+#include "solvers/families.hpp"
 #include "solvers/tracked_objective.hpp"
 #include "solvers/unit_box.hpp"
 
@@ -141,6 +140,29 @@ double checked_initial_step(double initial_step) {
   throw UsageError(text.str());
 }
 
+/// One NLopt algorithm, run over the unit box of the coordinates that can move.
+///
+/// Global: direct-l, crs2, isres, esch, mlsl-lds, ags; with gradient, stogo.
+/// Local: bobyqa, sbplx, cobyla; with gradient, lbfgs, slsqp, mma.
+/// mlsl-lds starts L-BFGS where the objective has a gradient, else BOBYQA.
+class NloptSolver final : public Solver {
+ public:
+  /// `name` is one of the above after "nlopt:"; `tolerance` and `initial_step` as in Search.
+  /// Throws UsageError when the tolerance is not above 0 and finite, or the step not
+  /// 0 or more and finite.
+  NloptSolver(const std::string& name, double tolerance, double initial_step);
+
+  std::string name() const override { return name_; }
+  SolverNeeds needs() const override;
+
+ private:
+  SolveResult do_solve(const Objective& objective, const SolveRequest& request) const override;
+
+  std::string name_;
+  double tolerance_;
+  double initial_step_;
+};
+
 }  // namespace
 
 NloptSolver::NloptSolver(const std::string& name, double tolerance, double initial_step)
@@ -182,6 +204,18 @@ SolveResult NloptSolver::do_solve(const Objective& objective, const SolveRequest
   const nlopt_result code = nlopt_optimize(handle.get(), u.data(), &cost);
   if (tracked.is_stopped()) return tracked.result(SolveStatus::stalled);
   return tracked.result(status_of(code), std::string("NLopt: ") + nlopt_result_to_string(code));
+}
+
+SolverFamily nlopt_family() {
+  SolverFamily family{
+      .label = "nlopt:*",
+      .names = {},
+      .heeds = SearchParameters::tolerances,
+      .make = [](const std::string& name, const Search& search) -> std::unique_ptr<Solver> {
+        return std::make_unique<NloptSolver>(name, search.tolerance, search.initial_step);
+      }};
+  for (const Algorithm& known : kAlgorithms) family.names.emplace_back(known.name);
+  return family;
 }
 
 }  // namespace nbvopt

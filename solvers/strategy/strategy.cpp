@@ -5,10 +5,20 @@
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "solvers/families.hpp"
 #include "solvers/strategy/strategy_search.hpp"
 
 namespace nbvopt {
 namespace {
+
+constexpr const char* kNoStage = "none";
+
+void set_stage(std::string& stage, const std::string& which,
+               const std::optional<std::string>& name) {
+  if (!name) return;
+  if (name->empty()) throw UsageError("the " + which + " stage is empty: name a solver or none");
+  stage = *name == kNoStage ? "" : *name;
+}
 
 void check(bool is_in_range, const char* field, double value, const char* range) {
   if (is_in_range) return;
@@ -47,11 +57,13 @@ auto in_stage(const char* stage, const Step& step) {
 }
 
 std::unique_ptr<Solver> make_stage(const char* stage, const std::string& name,
-                                   const SolverOptions& options) {
+                                   const Search& parameters) {
   if (name.empty()) return nullptr;
   return in_stage(stage, [&] {
-    if (name == "grid") throw UsageError("solver grid has no steps here: use another solver");
-    auto solver = make_solver(name, options);
+    if (heeds(name, SearchParameters::grid_steps)) {
+      throw UsageError("solver " + name + " has no steps here: use another solver");
+    }
+    auto solver = make_solver(name, parameters);
     if (solver->needs().surrogate) {
       throw UsageError("solver " + name + " is a strategy itself: use another solver");
     }
@@ -61,19 +73,6 @@ std::unique_ptr<Solver> make_stage(const char* stage, const std::string& name,
 
 void check_stage(const char* stage, const Solver* solver, const Objective& objective) {
   if (solver) in_stage(stage, [&] { solver->check_needs(objective); });
-}
-
-SolverOptions local_options(const StrategyOptions& options) {
-  SolverOptions result;
-  result.tolerance = options.local_tolerance;
-  return result;
-}
-
-SolverOptions polish_options(const StrategyOptions& options) {
-  SolverOptions result;
-  result.tolerance = options.polish_tolerance;
-  result.initial_step = options.polish_step;
-  return result;
 }
 
 /// The solvers' names, such as "nlopt:direct-l + nlopt:lbfgs".
@@ -91,8 +90,11 @@ StrategySolver::StrategySolver(std::string name, StrategyOptions options)
     : name_(std::move(name)),
       options_(checked(std::move(options))),
       stages_{make_stage("global", options_.global, {}),
-              make_stage("local", options_.local, local_options(options_)),
-              make_stage("polish", options_.polish, polish_options(options_))} {}
+              make_stage("local", options_.local, {.tolerance = options_.local_tolerance}),
+              make_stage(
+                  "polish", options_.polish,
+                  {.tolerance = options_.polish_tolerance, .initial_step = options_.polish_step})} {
+}
 
 SolveResult StrategySolver::do_solve(const Objective& objective,
                                      const SolveRequest& request) const {
@@ -104,8 +106,31 @@ SolveResult StrategySolver::do_solve(const Objective& objective,
   return StrategySearch(options_, stages_, objective, request).run();
 }
 
+std::optional<StrategyOptions> named_stages(const std::optional<std::string>& global,
+                                            const std::optional<std::string>& local,
+                                            const std::optional<std::string>& polish) {
+  if (!global && !local && !polish) return std::nullopt;
+  StrategyOptions stages;
+  set_stage(stages.global, "global", global);
+  set_stage(stages.local, "local", local);
+  set_stage(stages.polish, "polish", polish);
+  return stages;
+}
+
+std::string stage_name(const std::string& stage) { return stage.empty() ? kNoStage : stage; }
+
 std::unique_ptr<Solver> make_strategy(const StrategyOptions& options) {
   return std::make_unique<StrategySolver>(composed_name(options), options);
+}
+
+SolverFamily strategy_family() {
+  return {.label = "auto",
+          .names = {"auto"},
+          .heeds = SearchParameters::stages,
+          .make = [](const std::string& name, const Search& search) -> std::unique_ptr<Solver> {
+            if (search.stages) return make_strategy(*search.stages);
+            return std::make_unique<StrategySolver>(name, StrategyOptions{});
+          }};
 }
 
 }  // namespace nbvopt

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/answer.hpp"
 #include "solvers/batch_search.hpp"
-#include "solvers/stop_status.hpp"
-#include "solvers/strategy/separate_points.hpp"
-#include "solvers/strategy/shifted_period.hpp"
-#include "solvers/strategy/start_points.hpp"
+#include "solvers/strategy/objectives.hpp"
+#include "solvers/strategy/points.hpp"
 
 namespace nbvopt {
 namespace {

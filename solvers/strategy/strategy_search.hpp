@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/best_seen.hpp"
-#include "solvers/strategy/recording_objective.hpp"
+#include "solvers/answer.hpp"
+#include "solvers/strategy/objectives.hpp"
 #include "solvers/strategy/strategy.hpp"
 
 namespace nbvopt {

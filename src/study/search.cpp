@@ -13,64 +13,54 @@
 namespace nbvopt::study {
 namespace {
 
-/// Which searches a parameter belongs to.
-enum class Part { all, grid, solver, stages };
-
 constexpr const char* kStrategy = "auto";
-constexpr const char* kGrid = "grid";
 constexpr const char* kNoStage = "none";
+
+/// What a solver must heed for a parameter to count; none: it counts for all.
+using Part = std::optional<SearchParameters>;
 
 /// Calls visit(key, field, part) for every parameter, in the order of settings().
 template <class SearchOrConst, class Visit>
 void for_each_parameter(SearchOrConst& s, Visit&& visit) {
-  visit("solver", s.solver, Part::all);
-  visit("evaluator", s.evaluator, Part::all);
-  visit("step_pan_rad", s.step_pan_rad, Part::grid);
-  visit("step_tilt_rad", s.step_tilt_rad, Part::grid);
-  visit("step_height_m", s.step_height_m, Part::grid);
-  visit("tolerance", s.tolerance, Part::solver);
-  visit("initial_step", s.initial_step, Part::solver);
-  visit("global", s.stages.global, Part::stages);
-  visit("local", s.stages.local, Part::stages);
-  visit("polish", s.stages.polish, Part::stages);
-  visit("line_points", s.stages.line_points, Part::stages);
-  visit("global_evaluations", s.stages.global_evaluations, Part::stages);
-  visit("local_starts", s.stages.local_starts, Part::stages);
-  visit("start_separation", s.stages.start_separation, Part::stages);
-  visit("local_tolerance", s.stages.local_tolerance, Part::stages);
-  visit("local_evaluations", s.stages.local_evaluations, Part::stages);
-  visit("polish_candidates", s.stages.polish_candidates, Part::stages);
-  visit("polish_tolerance", s.stages.polish_tolerance, Part::stages);
-  visit("polish_step", s.stages.polish_step, Part::stages);
-  visit("polish_evaluations", s.stages.polish_evaluations, Part::stages);
-  visit("surrogate_ray_spacing", s.surrogate_ray_spacing, Part::stages);
-  visit("surrogate_layer_spacing", s.surrogate_layer_spacing, Part::stages);
-  visit("surrogate_smoothing", s.surrogate_smoothing, Part::stages);
+  visit("solver", s.solver, Part());
+  visit("evaluator", s.evaluator, Part());
+  visit("step_pan_rad", s.step_pan_rad, SearchParameters::grid_steps);
+  visit("step_tilt_rad", s.step_tilt_rad, SearchParameters::grid_steps);
+  visit("step_height_m", s.step_height_m, SearchParameters::grid_steps);
+  visit("tolerance", s.tolerance, SearchParameters::tolerances);
+  visit("initial_step", s.initial_step, SearchParameters::tolerances);
+  visit("global", s.stages.global, SearchParameters::stages);
+  visit("local", s.stages.local, SearchParameters::stages);
+  visit("polish", s.stages.polish, SearchParameters::stages);
+  visit("line_points", s.stages.line_points, SearchParameters::stages);
+  visit("global_evaluations", s.stages.global_evaluations, SearchParameters::stages);
+  visit("local_starts", s.stages.local_starts, SearchParameters::stages);
+  visit("start_separation", s.stages.start_separation, SearchParameters::stages);
+  visit("local_tolerance", s.stages.local_tolerance, SearchParameters::stages);
+  visit("local_evaluations", s.stages.local_evaluations, SearchParameters::stages);
+  visit("polish_candidates", s.stages.polish_candidates, SearchParameters::stages);
+  visit("polish_tolerance", s.stages.polish_tolerance, SearchParameters::stages);
+  visit("polish_step", s.stages.polish_step, SearchParameters::stages);
+  visit("polish_evaluations", s.stages.polish_evaluations, SearchParameters::stages);
+  visit("surrogate_ray_spacing", s.surrogate_ray_spacing, SearchParameters::stages);
+  visit("surrogate_layer_spacing", s.surrogate_layer_spacing, SearchParameters::stages);
+  visit("surrogate_smoothing", s.surrogate_smoothing, SearchParameters::stages);
 }
 
-bool belongs(Part part, const Search& search) {
-  switch (part) {
-    case Part::all:
-      return true;
-    case Part::grid:
-      return search.solver == kGrid;
-    case Part::solver:
-      return search.solver.starts_with("nlopt:") || search.solver.starts_with("ceres:");
-    case Part::stages:
-      return search.solver == kStrategy;
-  }
-  return false;
+bool belongs(Part part, const Search& search) { return !part || heeds(search.solver, *part); }
+
+/// One that is not is refused when it is made.
+bool is_known(const std::string& solver) {
+  const std::vector<std::string> names = solver_names();
+  return std::ranges::find(names, solver) != names.end();
 }
 
-const char* owner(Part part) {
-  switch (part) {
-    case Part::grid:
-      return "solver grid";
-    case Part::solver:
-      return "solvers nlopt:* and ceres:*";
-    default:
-      return "solver auto";
-  }
+/// Such as "solvers nlopt:* and ceres:*".
+std::string owners(SearchParameters part) {
+  const std::vector<std::string> labels = solvers_that_heed(part);
+  std::string text = labels.size() == 1 ? "solver " : "solvers ";
+  for (std::size_t i = 0; i < labels.size(); ++i) text += (i == 0 ? "" : " and ") + labels[i];
+  return text;
 }
 
 std::string store_field(const FieldValue& value, std::optional<double>& field) {
@@ -111,7 +101,7 @@ void set_search(Search& search, const FieldSetting& setting, const std::string& 
     if (setting.key != key) return;
     demand = store_field(setting.value, field);
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, std::string>) {
-      if (part == Part::stages && field == kNoStage) field.clear();
+      if (part == SearchParameters::stages && field == kNoStage) field.clear();
     }
   });
   if (!demand) {
@@ -127,10 +117,11 @@ void set_search(Search& search, const FieldSetting& setting, const std::string& 
 void check_settings(const Search& search, const std::vector<FieldSetting>& given,
                     const std::string& place) {
   for_each_parameter(search, [&](const char* key, const auto&, Part part) {
-    if (belongs(part, search) || std::ranges::find(given, key, &FieldSetting::key) == given.end()) {
+    if (belongs(part, search) || !is_known(search.solver) ||
+        std::ranges::find(given, key, &FieldSetting::key) == given.end()) {
       return;
     }
-    throw InputError(place + ": " + key + " belongs to " + owner(part) + ", not to " +
+    throw InputError(place + ": " + key + " belongs to " + owners(*part) + ", not to " +
                      search.solver);
   });
   const std::vector<std::string> evaluators = evaluator_names();

@@ -24,8 +24,8 @@ struct Search {
   double step_pan_rad = 0.8;        ///< of the paper
   double step_tilt_rad = 0.0;       ///< 0: keeps the joint
   double step_height_m = 0.0;
-  double tolerance = SolverOptions{}.tolerance;
-  double initial_step = SolverOptions{}.initial_step;
+  double tolerance = nbvopt::Search{}.tolerance;
+  double initial_step = nbvopt::Search{}.initial_step;
   StrategyOptions stages;
   /// Of the panorama; none: as the planner has it.
   std::optional<double> surrogate_ray_spacing;

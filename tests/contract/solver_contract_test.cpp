@@ -94,7 +94,7 @@ class SolverContract : public testing::TestWithParam<std::string> {
 
   static SolveResult solve(const std::string& name, const Objective& objective,
                            const SolveRequest& request) {
-    SolverOptions options;
+    Search options;
     const Point steps = (objective.box().upper - objective.box().lower) / 12.0;
     options.grid_steps.assign(steps.begin(), steps.end());
     return make_solver(name, options)->solve(objective, request);

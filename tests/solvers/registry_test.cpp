@@ -1,4 +1,4 @@
-// The table of solvers, and the options that all of them share.
+// The table of solvers, and the parameters that several of them share.
 #include "nbvopt/solver/registry.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string refusal(const std::string& name, const SolverOptions& options = {}) {
+std::string refusal(const std::string& name, const Search& options = {}) {
   try {
     make_solver(name, options);
   } catch (const UsageError& error) {
@@ -40,7 +40,7 @@ TEST(Registry, AnUnknownNameListsTheKnown) {
 }
 
 TEST(Registry, RefusesABadTolerance) {
-  SolverOptions options;
+  Search options;
   for (const double tolerance : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
     options.tolerance = tolerance;
     EXPECT_THAT(refusal("nlopt:sbplx", options), HasSubstr("tolerance = "));
@@ -50,12 +50,39 @@ TEST(Registry, RefusesABadTolerance) {
 }
 
 TEST(Registry, RefusesAFirstStepThatIsNoLength) {
-  SolverOptions options;
+  Search options;
   for (const double step :
        {-0.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     options.initial_step = step;
     EXPECT_THAT(refusal("nlopt:sbplx", options), HasSubstr("initial_step = "));
   }
+}
+
+TEST(Registry, SaysWhatSolversHeed) {
+  EXPECT_TRUE(heeds("grid", SearchParameters::grid_steps));
+  EXPECT_TRUE(heeds("nlopt:sbplx", SearchParameters::tolerances));
+  EXPECT_TRUE(heeds("ceres:lm", SearchParameters::tolerances));
+  EXPECT_TRUE(heeds("auto", SearchParameters::stages));
+  EXPECT_FALSE(heeds("auto", SearchParameters::tolerances));
+  EXPECT_FALSE(heeds("random", SearchParameters::grid_steps));
+  EXPECT_FALSE(heeds("nlopt:nothing", SearchParameters::tolerances));
+  EXPECT_THAT(solvers_that_heed(SearchParameters::tolerances),
+              testing::ElementsAre("nlopt:*", "ceres:*"));
+}
+
+TEST(Registry, MakesTheSolverOfASearch) {
+  EXPECT_EQ(make_solver(Search{})->name(), "auto");
+  EXPECT_EQ(make_solver(Search{.solver = "random"})->name(), "random");
+  EXPECT_EQ(make_solver(Search{.stages = StrategyOptions{.global = "", .local = ""}})->name(),
+            StrategyOptions{}.polish);
+  EXPECT_THROW(make_solver(Search{.solver = "auto", .stages = StrategyOptions{}}), UsageError);
+}
+
+TEST(Registry, ReadsStagesAsUsersNameThem) {
+  EXPECT_EQ(named_stages({}, {}, {}), std::nullopt);
+  EXPECT_EQ(named_stages("none", {}, "nlopt:sbplx"),
+            (StrategyOptions{.global = "", .polish = "nlopt:sbplx"}));
+  EXPECT_THROW(named_stages({}, "", {}), UsageError);
 }
 
 }  // namespace

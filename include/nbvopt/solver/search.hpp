@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "nbvopt/solver/registry.hpp"
 #include "nbvopt/solver/solver.hpp"
 #include "nbvopt/solver/strategy.hpp"
 
@@ -16,25 +15,23 @@ namespace nbvopt {
 struct Search {
   std::optional<std::string> solver = {};  ///< of the registry; none: the stages, or else "auto"
   std::optional<StrategyOptions> stages = {};  ///< compose a search, instead of `solver`
-  std::vector<double> grid_steps = {};         ///< as SolverOptions::grid_steps
-  double tolerance = SolverOptions{}.tolerance;
-  double initial_step = SolverOptions{}.initial_step;
+  /// Of `grid`: the step of each coordinate; 0 freezes it at the start.
+  std::vector<double> grid_steps = {};
+  /// Of `nlopt:*` and `ceres:*`: the search has converged when a step changes every coordinate by
+  /// less than this many of the objective's length scales.
+  double tolerance = 5e-3;
+  /// Of `nlopt:sbplx`, `nlopt:bobyqa` and `nlopt:cobyla`, which alone heed it: the first step, in
+  /// length scales; 0 leaves it to the solver.
+  double initial_step = 0.0;
 
   bool operator==(const Search&) const = default;
 };
 
-/// The solver of a search. Throws UsageError when solver and stages are both given, and as
-/// make_solver() and make_strategy() do.
+/// The solver of a search. Throws UsageError: an unknown name (the known ones are listed), a bad
+/// parameter, solver and stages both given; and as make_strategy() does.
 std::unique_ptr<Solver> make_solver(const Search& search);
 
-/// Stages as users name them: each a solver of the registry, or "none", which leaves it out. Those
-/// without a name are those of "auto"; the result is none when no stage is named. Throws UsageError
-/// for an empty name.
-std::optional<StrategyOptions> named_stages(const std::optional<std::string>& global,
-                                            const std::optional<std::string>& local,
-                                            const std::optional<std::string>& polish);
-
-/// The way back: the solver of a stage, or "none" where it is left out.
-std::string stage_name(const std::string& stage);
+/// The same for the solver of that name and the search's parameters.
+std::unique_ptr<Solver> make_solver(const std::string& name, Search parameters);
 
 }  // namespace nbvopt

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nbvopt/solver/solver.hpp"
@@ -24,17 +25,27 @@ struct StrategyOptions {
   int local_starts = 5;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
   double start_separation = 0.08;
-  double local_tolerance = 0.1;         ///< as SolverOptions::tolerance
+  double local_tolerance = 0.1;         ///< as Search::tolerance
   std::int64_t local_evaluations = 60;  ///< of each start
 
   /// Local optima that the objective judges; the polish starts from the best.
   int polish_candidates = 2;
-  double polish_tolerance = 0.02;  ///< as SolverOptions::tolerance
-  double polish_step = 1.0;        ///< as SolverOptions::initial_step
+  double polish_tolerance = 0.02;  ///< as Search::tolerance
+  double polish_step = 1.0;        ///< as Search::initial_step
   std::int64_t polish_evaluations = 60;
 
   bool operator==(const StrategyOptions&) const = default;
 };
+
+/// Stages as users name them: each a solver of the registry, or "none", which leaves it out. Those
+/// without a name are those of "auto"; the result is none when no stage is named. Throws UsageError
+/// for an empty name.
+std::optional<StrategyOptions> named_stages(const std::optional<std::string>& global,
+                                            const std::optional<std::string>& local,
+                                            const std::optional<std::string>& polish);
+
+/// The way back: the solver of a stage, or "none" where it is left out.
+std::string stage_name(const std::string& stage);
 
 /// A solver that searches on the objective's surrogate and answers with what the objective itself
 /// evaluated. Without a global and a local stage it needs no surrogate.

@@ -48,7 +48,7 @@ RecordedFunction flat(Box box) {
 
 SolveResult solve_grid(const Objective& objective, const Point& start, std::vector<double> steps,
                        const StopRule& stop = {}) {
-  SolverOptions options;
+  Search options;
   options.grid_steps = std::move(steps);
   SolveRequest request;
   request.start = start;

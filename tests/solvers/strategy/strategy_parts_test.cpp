@@ -7,10 +7,8 @@
 
 #include "nbvopt/core/error.hpp"
 #include "solvers/point.hpp"
-#include "solvers/strategy/recording_objective.hpp"
-#include "solvers/strategy/separate_points.hpp"
-#include "solvers/strategy/shifted_period.hpp"
-#include "solvers/strategy/start_points.hpp"
+#include "solvers/strategy/objectives.hpp"
+#include "solvers/strategy/points.hpp"
 #include "support/numbers.hpp"
 
 namespace nbvopt {
