@@ -119,7 +119,7 @@ void run(const StudyOptions& options, WorkKind kind) {
 }
 
 void run_worker() {
-  study::UnitRunner runner(study::make_search_solver);
+  study::UnitRunner runner([](const Search& search) { return make_solver(search); });
   experiment::run_worker([&](const Json& unit) { return runner.run(study::unit_of(unit)); });
 }
 

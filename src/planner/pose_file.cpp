@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
+#include "fields/json.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/mast/mast.hpp"
 #include "nbvopt/planner/planner.hpp"
@@ -11,8 +12,6 @@
 
 namespace nbvopt {
 namespace {
-
-using Json = nlohmann::json;
 
 Json parse_json(const std::string& text, const std::string& name) {
   try {
@@ -49,22 +48,6 @@ std::array<double, Size> numbers(const Json& object, const char* key, const std:
                      " numbers");
   }
   return value.get<std::array<double, Size>>();
-}
-
-FieldValue field_value(const Json& value, const std::string& field) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_number()) return value.get<double>();
-  if (value.is_string()) return value.get<std::string>();
-  throw InputError(field + " must be a number, a string, true or false");
-}
-
-std::vector<FieldSetting> settings(const Json& block, const std::string& where) {
-  if (!block.is_object()) throw InputError(where + " must be an object {...}");
-  std::vector<FieldSetting> result;
-  for (const auto& [key, value] : block.items()) {
-    result.push_back({key, field_value(value, where + "." + key)});
-  }
-  return result;
 }
 
 Transform pose_of_base(const Json& a_case, const Mast& mast, const std::string& where) {
@@ -106,7 +89,7 @@ PoseFile parse_pose_file(const std::string& json, const std::string& name, const
 
   PoseFile result{robot.sensor, {}};
   if (file.contains("sensor")) {
-    set_fields(result.sensor, settings(file["sensor"], name + ": sensor"), name);
+    set_fields(result.sensor, settings_of(file["sensor"], name + ": sensor"), name);
   }
   const Mast mast(robot.mast);
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -1,16 +1,13 @@
-#include <algorithm>
-#include <array>
 #include <iomanip>
 #include <sstream>
 
-#include "core/edit_distance.hpp"
-#include "core/number.hpp"
 #include "core/text_file.hpp"
+#include "fields/keys.hpp"
+#include "fields/yaml.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
-#include "planner/field_table.hpp"
-#include "planner/yaml_value.hpp"
+#include "planner/robot_field_tables.hpp"
 
 namespace nbvopt {
 namespace {
@@ -35,28 +32,17 @@ std::vector<FieldSetting> settings(const YAML::Node& block, const std::string& n
   return result;
 }
 
-std::string to_yaml_value(bool value) { return value ? "true" : "false"; }
-std::string to_yaml_value(double value) { return format_number(value); }
-std::string to_yaml_value(int value) { return std::to_string(value); }
-std::string to_yaml_value(const Eigen::Vector3d& v) {
-  std::ostringstream out;
-  out << '[' << format_number(v.x()) << ", " << format_number(v.y()) << ", " << format_number(v.z())
-      << ']';
-  return out.str();
-}
-template <class Enum>
-requires std::is_enum_v<Enum> std::string to_yaml_value(Enum value) { return to_string(value); }
-
 /// Where the comments start, so that they stand in one column.
 constexpr int kCommentColumn = 44;
 
 template <class Options>
 void write_block(std::ostream& out, const Options& options) {
   out << block_name(options) << ":\n";
-  for_each_field(options, [&](const char* key, const auto& field, const char* comment) {
-    const std::string setting = std::string(key) + ": " + to_yaml_value(field);
-    out << "  " << std::left << std::setw(kCommentColumn) << setting << "  # " << comment << '\n';
-  });
+  for (const Field<Options>& field : fields_of(options)) {
+    const std::string setting = std::string(field.key) + ": " + to_yaml(field.get(options).value());
+    out << "  " << std::left << std::setw(kCommentColumn) << setting << "  # " << field.comment
+        << '\n';
+  }
 }
 
 }  // namespace
@@ -66,21 +52,15 @@ Robot read_robot(const std::filesystem::path& path) {
 }
 
 Robot parse_robot(const std::string& yaml, const std::string& name) {
-  static const std::array<std::string, 2> kBlocks{"sensor", "mast"};
   Robot robot;
-  std::vector<std::string> seen;
+  KeyCheck blocks({block_name(robot.sensor), block_name(robot.mast)}, "block");
   for (const auto& [block, node] : entries(parse_yaml(yaml, name), name)) {
-    if (std::find(seen.begin(), seen.end(), block) != seen.end()) {
-      throw InputError(name + ": block '" + block + "' is given twice, keep one");
-    }
-    seen.push_back(block);
-    if (block == "sensor") {
-      set_fields(robot.sensor, settings(node, name + ": " + block), name);
-    } else if (block == "mast") {
-      set_fields(robot.mast, settings(node, name + ": " + block), name);
+    blocks.take(block, name, name + ": block '" + block + "'");
+    const std::vector<FieldSetting> given = settings(node, name + ": " + block);
+    if (block == block_name(robot.sensor)) {
+      set_fields(robot.sensor, given, name);
     } else {
-      throw InputError(name + ": unknown block '" + block + "', did you mean '" +
-                       nearest_word(block, kBlocks) + "'?");
+      set_fields(robot.mast, given, name);
     }
   }
   return robot;

@@ -1,53 +1,105 @@
 #include "study/search.hpp"
 
 #include <algorithm>
-#include <type_traits>
-#include <utility>
+#include <array>
+#include <span>
 
 #include "core/edit_distance.hpp"
-#include "nbvopt/core/error.hpp"
+#include "fields/field_table.hpp"
+#include "fields/keys.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/planner.hpp"
-#include "planner/field_value.hpp"
+#include "nbvopt/solver/registry.hpp"
 
 namespace nbvopt::study {
 namespace {
 
 constexpr const char* kStrategy = "auto";
-constexpr const char* kNoStage = "none";
 
-/// What a solver must heed for a parameter to count; none: it counts for all.
-using Part = std::optional<SearchParameters>;
+/// "auto" is what a search without a solver's name is: the stages belong to it.
+constexpr Field<StudySearch> kSolver{
+    .key = "solver",
+    .comment = {},
+    .get = [](const StudySearch& search) { return value_of(solver_of(search)); },
+    .set =
+        [](StudySearch& search, const FieldValue& value) {
+          std::string name;
+          std::string demand = store(value, name);
+          if (!demand.empty()) return demand;
+          search.search.solver.reset();
+          if (name != kStrategy) search.search.solver = name;
+          return demand;
+        }};
 
-/// Calls visit(key, field, part) for every parameter, in the order of settings().
-template <class SearchOrConst, class Visit>
-void for_each_parameter(SearchOrConst& s, Visit&& visit) {
-  visit("solver", s.solver, Part());
-  visit("evaluator", s.evaluator, Part());
-  visit("step_pan_rad", s.step_pan_rad, SearchParameters::grid_steps);
-  visit("step_tilt_rad", s.step_tilt_rad, SearchParameters::grid_steps);
-  visit("step_height_m", s.step_height_m, SearchParameters::grid_steps);
-  visit("tolerance", s.tolerance, SearchParameters::tolerances);
-  visit("initial_step", s.initial_step, SearchParameters::tolerances);
-  visit("global", s.stages.global, SearchParameters::stages);
-  visit("local", s.stages.local, SearchParameters::stages);
-  visit("polish", s.stages.polish, SearchParameters::stages);
-  visit("line_points", s.stages.line_points, SearchParameters::stages);
-  visit("global_evaluations", s.stages.global_evaluations, SearchParameters::stages);
-  visit("local_starts", s.stages.local_starts, SearchParameters::stages);
-  visit("start_separation", s.stages.start_separation, SearchParameters::stages);
-  visit("local_tolerance", s.stages.local_tolerance, SearchParameters::stages);
-  visit("local_evaluations", s.stages.local_evaluations, SearchParameters::stages);
-  visit("polish_candidates", s.stages.polish_candidates, SearchParameters::stages);
-  visit("polish_tolerance", s.stages.polish_tolerance, SearchParameters::stages);
-  visit("polish_step", s.stages.polish_step, SearchParameters::stages);
-  visit("polish_evaluations", s.stages.polish_evaluations, SearchParameters::stages);
-  visit("surrogate_ray_spacing", s.surrogate_ray_spacing, SearchParameters::stages);
-  visit("surrogate_layer_spacing", s.surrogate_layer_spacing, SearchParameters::stages);
-  visit("surrogate_smoothing", s.surrogate_smoothing, SearchParameters::stages);
+/// A stage's solver, "none" where it is left out.
+template <std::string StrategyOptions::*Stage>
+constexpr Field<StudySearch> stage_field(std::string_view key) {
+  return {
+      .key = key,
+      .comment = {},
+      .get =
+          [](const StudySearch& search) {
+            return value_of(stage_name(search.search.stages.value_or(StrategyOptions{}).*Stage));
+          },
+      .set =
+          [](StudySearch& search, const FieldValue& value) {
+            std::string name;
+            std::string demand = store(value, name);
+            if (!demand.empty()) return demand;
+            if (!search.search.stages) search.search.stages.emplace();
+            (*search.search.stages).*Stage = name == stage_name({}) ? "" : name;
+            return demand;
+          }};
 }
 
-bool belongs(Part part, const Search& search) { return !part || heeds(search.solver, *part); }
+template <auto Parameter>
+constexpr Field<StudySearch> strategy_field(std::string_view key) {
+  return field<&StudySearch::search, &Search::stages, Parameter>(key);
+}
+
+template <std::size_t Joint>
+constexpr Field<StudySearch> step_field(std::string_view key) {
+  return field<&StudySearch::search, &Search::grid_steps, Joint>(key);
+}
+
+constexpr std::array kCommonFields{kSolver, field<&StudySearch::evaluator>("evaluator")};
+constexpr std::array kStageFields{
+    stage_field<&StrategyOptions::global>("global"),
+    stage_field<&StrategyOptions::local>("local"),
+    stage_field<&StrategyOptions::polish>("polish"),
+    strategy_field<&StrategyOptions::line_points>("line_points"),
+    strategy_field<&StrategyOptions::global_evaluations>("global_evaluations"),
+    strategy_field<&StrategyOptions::local_starts>("local_starts"),
+    strategy_field<&StrategyOptions::start_separation>("start_separation"),
+    strategy_field<&StrategyOptions::local_tolerance>("local_tolerance"),
+    strategy_field<&StrategyOptions::local_evaluations>("local_evaluations"),
+    strategy_field<&StrategyOptions::polish_candidates>("polish_candidates"),
+    strategy_field<&StrategyOptions::polish_tolerance>("polish_tolerance"),
+    strategy_field<&StrategyOptions::polish_step>("polish_step"),
+    strategy_field<&StrategyOptions::polish_evaluations>("polish_evaluations"),
+    field<&StudySearch::surrogate_ray_spacing>("surrogate_ray_spacing"),
+    field<&StudySearch::surrogate_layer_spacing>("surrogate_layer_spacing"),
+    field<&StudySearch::surrogate_smoothing>("surrogate_smoothing")};
+constexpr std::array kGridFields{step_field<0>("step_pan_rad"), step_field<1>("step_tilt_rad"),
+                                 step_field<2>("step_height_m")};
+constexpr std::array kToleranceFields{
+    field<&StudySearch::search, &Search::tolerance>("tolerance"),
+    field<&StudySearch::search, &Search::initial_step>("initial_step")};
+
+/// Parameters that count for the solvers that heed them.
+struct Part {
+  std::optional<SearchParameters> heeded;  ///< none: all solvers do
+  std::span<const Field<StudySearch>> fields;
+
+  bool counts_for(const StudySearch& search) const {
+    return !heeded || heeds(solver_of(search), *heeded);
+  }
+};
+
+const std::array kParts{Part{std::nullopt, kCommonFields},
+                        Part{SearchParameters::stages, kStageFields},
+                        Part{SearchParameters::grid_steps, kGridFields},
+                        Part{SearchParameters::tolerances, kToleranceFields}};
 
 /// One that is not is refused when it is made.
 bool is_known(const std::string& solver) {
@@ -56,74 +108,54 @@ bool is_known(const std::string& solver) {
 }
 
 /// Such as "solvers nlopt:* and ceres:*".
-std::string owners(SearchParameters part) {
-  const std::vector<std::string> labels = solvers_that_heed(part);
+std::string owners(SearchParameters parameters) {
+  const std::vector<std::string> labels = solvers_that_heed(parameters);
   std::string text = labels.size() == 1 ? "solver " : "solvers ";
   for (std::size_t i = 0; i < labels.size(); ++i) text += (i == 0 ? "" : " and ") + labels[i];
   return text;
 }
 
-std::string store_field(const FieldValue& value, std::optional<double>& field) {
-  double number = 0.0;
-  std::string demand = store(value, number);
-  if (demand.empty()) field = number;
-  return demand;
-}
-
-template <class Field>
-std::string store_field(const FieldValue& value, Field& field) {
-  return store(value, field);
-}
-
 }  // namespace
 
-std::vector<FieldSetting> settings(const Search& search) {
+std::vector<FieldSetting> settings(const StudySearch& search) {
   std::vector<FieldSetting> result;
-  for_each_parameter(search, [&](const char* key, const auto& field, Part part) {
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if (!belongs(part, search)) return;
-    if constexpr (std::is_same_v<Field, std::optional<double>>) {
-      if (field) result.push_back({key, *field});
-    } else if constexpr (std::is_same_v<Field, std::string>) {
-      result.push_back({key, field.empty() ? std::string(kNoStage) : field});
-    } else {
-      result.push_back({key, static_cast<double>(field)});
+  for (const Part& part : kParts) {
+    if (!part.counts_for(search)) continue;
+    for (const Field<StudySearch>& field : part.fields) {
+      if (const auto value = field.get(search)) result.push_back({std::string(field.key), *value});
     }
-  });
+  }
   return result;
 }
 
-void set_search(Search& search, const FieldSetting& setting, const std::string& place) {
+std::vector<std::string> search_keys() {
   std::vector<std::string> keys;
-  std::optional<std::string> demand;
-  for_each_parameter(search, [&](const char* key, auto& field, Part part) {
-    keys.emplace_back(key);
-    if (setting.key != key) return;
-    demand = store_field(setting.value, field);
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, std::string>) {
-      if (part == SearchParameters::stages && field == kNoStage) field.clear();
-    }
-  });
-  if (!demand) {
-    throw InputError(place + ": unknown key '" + setting.key + "', did you mean '" +
-                     nearest_word(setting.key, keys) + "'?");
+  for (const Part& part : kParts) {
+    for (const Field<StudySearch>& field : part.fields) keys.emplace_back(field.key);
   }
-  if (!demand->empty()) {
-    throw InputError(place + ": " + setting.key + " is " + to_text(setting.value) +
-                     ", it must be " + *demand);
-  }
+  return keys;
 }
 
-void check_settings(const Search& search, const std::vector<FieldSetting>& given,
-                    const std::string& place) {
-  for_each_parameter(search, [&](const char* key, const auto&, Part part) {
-    if (belongs(part, search) || !is_known(search.solver) ||
-        std::ranges::find(given, key, &FieldSetting::key) == given.end()) {
-      return;
+void set_search(StudySearch& search, const FieldSetting& setting, const std::string& place) {
+  for (const Part& part : kParts) {
+    if (const auto* field = find_field(part.fields, setting.key)) {
+      return set_field(search, *field, setting.value, place + ": " + setting.key);
     }
-    throw InputError(place + ": " + key + " belongs to " + owners(*part) + ", not to " +
-                     search.solver);
-  });
+  }
+  refuse_key(setting.key, place, search_keys());
+}
+
+void check_settings(const StudySearch& search, const std::vector<FieldSetting>& given,
+                    const std::string& place) {
+  const std::string solver = solver_of(search);
+  for (const Part& part : kParts) {
+    if (part.counts_for(search) || !is_known(solver)) continue;
+    for (const FieldSetting& setting : given) {
+      if (find_field(part.fields, setting.key) == nullptr) continue;
+      throw InputError(place + ": " + setting.key + " belongs to " + owners(*part.heeded) +
+                       ", not to " + solver);
+    }
+  }
   const std::vector<std::string> evaluators = evaluator_names();
   if (std::ranges::find(evaluators, search.evaluator) == evaluators.end()) {
     throw InputError(place + ": evaluator is '" + search.evaluator + "', did you mean '" +
@@ -131,15 +163,11 @@ void check_settings(const Search& search, const std::vector<FieldSetting>& given
   }
 }
 
-std::unique_ptr<Solver> make_search_solver(const Search& search) {
-  if (search.solver == kStrategy) return make_strategy(search.stages);
-  return make_solver(search.solver, {.grid_steps = {search.step_pan_rad, search.step_tilt_rad,
-                                                    search.step_height_m},
-                                     .tolerance = search.tolerance,
-                                     .initial_step = search.initial_step});
+std::string solver_of(const StudySearch& search) {
+  return search.search.solver.value_or(kStrategy);
 }
 
-PanoramaOptions surrogate_options(const Search& search, Counting counting) {
+PanoramaOptions surrogate_options(const StudySearch& search, Counting counting) {
   PanoramaOptions options = planning_panorama(counting);
   options.ray_spacing = search.surrogate_ray_spacing.value_or(options.ray_spacing);
   options.layer_spacing = search.surrogate_layer_spacing.value_or(options.layer_spacing);

@@ -35,7 +35,7 @@ struct StudyMap {
 
 struct NamedSearch {
   std::string label;
-  Search search;
+  StudySearch search;
 };
 
 /// The product of its lists. None of them is empty.

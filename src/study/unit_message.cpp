@@ -2,9 +2,11 @@
 
 #include <array>
 #include <utility>
-#include <variant>
 
+#include "fields/json.hpp"
+#include "fields/store.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -52,13 +54,7 @@ Json to_json(const Start& start) {
           {"joints", {q.pan_rad, q.tilt_rad, q.height_m}}};
 }
 
-Json to_json(const Search& search) {
-  Json json = Json::object();
-  for (const FieldSetting& setting : settings(search)) {
-    std::visit([&](const auto& value) { json[setting.key] = value; }, setting.value);
-  }
-  return json;
-}
+Json to_json(const StudySearch& search) { return nbvopt::to_json(settings(search)); }
 
 Json to_json(const Budget& budget) {
   return {{"max_evaluations", limit_json(budget.max_evaluations)},
@@ -71,15 +67,9 @@ Start start_of(const Json& json) {
   return {base[0], base[1], base[2], base[3], {joints[0], joints[1], joints[2]}};
 }
 
-Search search_of(const Json& json) {
-  Search search;
-  for (const auto& [key, value] : json.items()) {
-    FieldSetting setting{key, {}};
-    if (value.is_string()) {
-      setting.value = value.get<std::string>();
-    } else {
-      setting.value = value.get<double>();
-    }
+StudySearch search_of(const Json& json) {
+  StudySearch search;
+  for (const FieldSetting& setting : settings_of(json, "search")) {
     set_search(search, setting, "search");
   }
   return search;
@@ -91,10 +81,12 @@ Budget budget_of(const Json& json) {
 }
 
 UncertaintyMode mode_of(const std::string& name) {
-  SensorOptions sensor;
-  const std::array setting{FieldSetting{"uncertainty_mode", name}};
-  set_fields(sensor, setting, "unit");
-  return sensor.uncertainty_mode;
+  UncertaintyMode mode{};
+  const std::string demand = store(name, mode);
+  if (!demand.empty()) {
+    throw InputError("unit: sensor.uncertainty_mode is '" + name + "', it must be " + demand);
+  }
+  return mode;
 }
 
 experiment::Unit message_of(const WorkUnit& unit) {

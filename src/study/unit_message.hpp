@@ -25,18 +25,18 @@ struct WorkUnit {
   Start start;
   double motion_time_s = 0.0;
   UncertaintyMode mode = UncertaintyMode::both;
-  Search search;  ///< of a query, as the rest below
+  StudySearch search;  ///< of a query, as the rest below
   Budget budget;
   std::uint64_t seed = 1;
 };
 
 Json to_json(const Start& start);
-Json to_json(const Search& search);
+Json to_json(const StudySearch& search);
 Json to_json(const Budget& budget);
 
 // The way back. Throw nlohmann's exceptions, and InputError for names that are not known.
 Start start_of(const Json& json);
-Search search_of(const Json& json);
+StudySearch search_of(const Json& json);
 Budget budget_of(const Json& json);
 UncertaintyMode mode_of(const std::string& name);
 

@@ -134,7 +134,7 @@ Json UnitRunner::run(const WorkUnit& unit) {
 
 Json UnitRunner::run_query(const WorkUnit& unit) {
   const bool is_exact = unit.search.evaluator == kExact;
-  const auto solver = make_(unit.search);
+  const auto solver = make_(unit.search.search);
   const Planner& planner = scene_->planner(unit.mode, unit.search.evaluator);
   PlanRequest request = request_of(unit);
   request.surrogate = surrogate_options(unit.search, scene_->counting());

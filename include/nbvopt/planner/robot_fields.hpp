@@ -4,22 +4,12 @@
 
 #include <span>
 #include <string>
-#include <variant>
-#include <vector>
 
+#include "nbvopt/fields/field_value.hpp"
 #include "nbvopt/mast/mast.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
 
 namespace nbvopt {
-
-/// A value whose type has not been checked yet. Enumerators are strings; vectors lists of numbers.
-using FieldValue = std::variant<bool, double, std::string, std::vector<double>>;
-
-/// One "key: value" of a file.
-struct FieldSetting {
-  std::string key;
-  FieldValue value;
-};
 
 /// Writes the settings into the options and validates the whole. Throws InputError that names
 /// `file`, key and value: an unknown key (with the nearest right one), a key given twice, a wrong

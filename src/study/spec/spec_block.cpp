@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/edit_distance.hpp"
-#include "core/number.hpp"
+#include "fields/keys.hpp"
+#include "fields/store.hpp"
+#include "fields/yaml.hpp"
 #include "nbvopt/core/error.hpp"
-#include "planner/field_value.hpp"
-#include "planner/yaml_value.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -66,21 +65,17 @@ std::int64_t SpecValue::whole_number(std::int64_t least) const {
   return number;
 }
 
-SpecBlock::SpecBlock(const SpecValue& value, std::vector<std::string> known_keys) : self_(value) {
+SpecBlock::SpecBlock(const SpecValue& value, const std::vector<std::string>& known_keys)
+    : self_(value) {
   if (!value.node.IsMap()) value.refuse("must hold lines of the form 'key: value'");
+  KeyCheck keys(known_keys);
   for (const auto& entry : value.node) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
-    const SpecValue key{value.file, "", entry.first};
-    if (std::ranges::find(known_keys, name) == known_keys.end()) {
-      throw InputError(key.place() + ": unknown key '" + name + "', did you mean '" +
-                       nearest_word(name, known_keys) + "'?");
-    }
-    if (find(name)) throw InputError(key.place() + ": " + name + " is given twice, keep one");
+    const std::string line = SpecValue{value.file, "", entry.first}.place();
+    keys.take(name, line, line + ": " + name);
     const std::string full = value.key.empty() ? name : value.key + "." + name;
     values_.push_back({value.file, full, entry.second});
-    if (entry.second.IsNull()) {
-      throw InputError(key.place() + ": " + full + " has no value, give one or leave the key out");
-    }
+    if (entry.second.IsNull()) refuse_missing_value(line + ": " + full);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nbvopt/planner/robot_fields.hpp"
+#include "nbvopt/fields/field_value.hpp"
 
 namespace nbvopt::study {
 
@@ -37,7 +37,7 @@ struct SpecValue {
 class SpecBlock {
  public:
   /// Refuses what is not a map, a key that is none of these, and one that is given twice.
-  SpecBlock(const SpecValue& value, std::vector<std::string> known_keys);
+  SpecBlock(const SpecValue& value, const std::vector<std::string>& known_keys);
 
   std::optional<SpecValue> find(const std::string& key) const;
 

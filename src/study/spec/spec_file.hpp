@@ -19,7 +19,8 @@ struct DeclaredStudy {
 /// starts, and adds the paper's searches where it does not list them. Throws InputError that names
 /// file, line and key: what is not YAML, an unknown or repeated key, a wrong value, an unknown
 /// solver, a map that is missing, a list that is empty.
-DeclaredStudy read_spec(const std::filesystem::path& path,
-                        const SolverFactory& make = make_search_solver);
+DeclaredStudy read_spec(
+    const std::filesystem::path& path,
+    const SolverFactory& make = [](const Search& search) { return make_solver(search); });
 
 }  // namespace nbvopt::study

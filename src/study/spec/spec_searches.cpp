@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fields/store.hpp"
 #include "nbvopt/core/error.hpp"
-#include "planner/field_value.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -46,28 +46,20 @@ class TrialObjective final : public Objective {
 
 /// Finds out whether the search can be made and has what it needs: cancelled beforehand, it checks
 /// that and answers with its start.
-void try_search(const Search& search, const SpecValue& entry, const SolverFactory& make) {
+void try_search(const StudySearch& search, const SpecValue& entry, const SolverFactory& make) {
   try {
     surrogate_options(search, Counting::per_ray).validate();
     SolveRequest request{.start = Point::Zero(3), .stop = {}, .seed = 1};
     request.stop.cancel.cancel();
-    make(search)->solve(TrialObjective(), request);
+    make(search.search)->solve(TrialObjective(), request);
   } catch (const Error& error) {
     throw InputError(entry.place() + ": " + error.what());
   }
 }
 
 std::vector<std::string> known_keys() {
-  std::vector<std::string> keys{kName};
-  for (const char* solver : {"auto", "grid", "nlopt:direct-l"}) {
-    Search search;
-    search.solver = solver;
-    search.surrogate_ray_spacing = search.surrogate_layer_spacing = search.surrogate_smoothing =
-        1.0;
-    for (const FieldSetting& setting : settings(search)) {
-      if (std::ranges::find(keys, setting.key) == keys.end()) keys.push_back(setting.key);
-    }
-  }
+  std::vector<std::string> keys = search_keys();
+  keys.insert(keys.begin(), kName);
   return keys;
 }
 
@@ -101,14 +93,19 @@ std::string plain_text(const FieldValue& value) {
 }
 
 /// "grid, step_pan_rad 0.4": the name or the solver, then what a reader cannot know from it.
-std::string label_of(const std::optional<std::string>& name, const Search& search,
+std::string label_of(const std::optional<std::string>& name, const StudySearch& search,
                      const Settings& settings, const std::vector<Parameter>& parameters) {
-  std::string label = name.value_or(search.solver);
+  std::string label = name.value_or(solver_of(search));
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const bool is_told = name ? parameters[i].values.size() == 1 : settings[i].key == "solver";
     if (!is_told) label += ", " + settings[i].key + " " + plain_text(settings[i].value);
   }
   return label;
+}
+
+auto find_same(const std::vector<NamedSearch>& searches, const StudySearch& search) {
+  return std::ranges::find(searches, settings(search),
+                           [](const NamedSearch& named) { return settings(named.search); });
 }
 
 void add_searches(const SpecValue& entry, const SolverFactory& make,
@@ -123,7 +120,7 @@ void add_searches(const SpecValue& entry, const SolverFactory& make,
     if (const auto value = block.find(key)) parameters.push_back({key, value->elements()});
   }
   for (const Settings& settings : product(parameters)) {
-    Search search;
+    StudySearch search;
     for (const FieldSetting& setting : settings) set_search(search, setting, entry.place());
     check_settings(search, settings, entry.place());
     try_search(search, entry, make);
@@ -131,7 +128,7 @@ void add_searches(const SpecValue& entry, const SolverFactory& make,
     if (std::ranges::find(searches, label, &NamedSearch::label) != searches.end()) {
       entry.refuse("would make a second search named '" + label + "', give it another name");
     }
-    const auto twin = std::ranges::find(searches, search, &NamedSearch::search);
+    const auto twin = find_same(searches, search);
     if (twin != searches.end()) {
       entry.refuse("would make '" + label + "' the same search as '" + twin->label + "', keep one");
     }
@@ -152,11 +149,9 @@ std::vector<NamedSearch> read_searches(const SpecValue& list, const SolverFactor
 void add_paper_searches(std::vector<NamedSearch>& searches) {
   const auto add = [&searches](const std::string& label, double step_pan_rad,
                                const char* evaluator) {
-    Search search;
-    search.solver = "grid";
-    search.evaluator = evaluator;
-    search.step_pan_rad = step_pan_rad;
-    if (std::ranges::find(searches, search, &NamedSearch::search) != searches.end()) return;
+    const StudySearch search{.search = {.solver = "grid", .grid_steps = {step_pan_rad, 0.0, 0.0}},
+                             .evaluator = evaluator};
+    if (find_same(searches, search) != searches.end()) return;
     searches.push_back({label, search});
   };
   add("paper, released code, step 0.8 rad", 0.8, "paper-code");

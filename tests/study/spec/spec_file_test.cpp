@@ -44,7 +44,7 @@ TEST(SpecFile, DeclaresAProduct) {
                           "grid, step_pan_rad 0.3, step_tilt_rad 0.1", "eager",
                           "paper, released code, step 0.8 rad", "paper, step 0.8 rad",
                           "paper, step 0.4 rad", "paper, step 0.2 rad"));
-  EXPECT_EQ(study.searches[5].search.stages.local_starts, 9);
+  EXPECT_EQ(study.searches[5].search.search.stages->local_starts, 9);
   EXPECT_EQ(study.searches[5].search.surrogate_smoothing, 0.5);
   EXPECT_THAT(study.budgets,
               ElementsAre(Budget{.max_evaluations = 50}, Budget{.max_evaluations = 200},

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "nbvopt/planner/robot_fields.hpp"
+#include "nbvopt/fields/field_value.hpp"
 
 namespace nbvopt {
 
@@ -15,5 +15,8 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name);
 
 /// A scalar or a list of numbers. Throws InputError that names `field` for anything else.
 FieldValue field_value(const YAML::Node& node, const std::string& field);
+
+/// The value as a file holds it.
+std::string to_yaml(const FieldValue& value);
 
 }  // namespace nbvopt

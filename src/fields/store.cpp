@@ -1,4 +1,4 @@
-#include "planner/field_value.hpp"
+#include "fields/store.hpp"
 
 #include <cmath>
 #include <limits>

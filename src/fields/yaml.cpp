@@ -1,6 +1,7 @@
-#include "planner/yaml_value.hpp"
+#include "fields/yaml.hpp"
 
 #include "core/number.hpp"
+#include "fields/keys.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -27,7 +28,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& name) {
 
 FieldValue field_value(const YAML::Node& node, const std::string& field) {
   if (node.IsScalar()) return scalar_value(node);
-  if (!node.IsSequence()) throw InputError(field + " has no value, give one or leave the key out");
+  if (!node.IsSequence()) refuse_missing_value(field);
   std::vector<double> list;
   for (const YAML::Node& element : node) {
     const auto number = element.IsScalar() ? parse_number(element.Scalar()) : std::nullopt;
@@ -35,6 +36,20 @@ FieldValue field_value(const YAML::Node& node, const std::string& field) {
     list.push_back(*number);
   }
   return list;
+}
+
+std::string to_yaml(const FieldValue& value) {
+  struct Writer {
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(double x) const { return format_number(x); }
+    std::string operator()(const std::string& x) const { return x; }
+    std::string operator()(const std::vector<double>& list) const {
+      std::string text;
+      for (const double x : list) text += (text.empty() ? "[" : ", ") + format_number(x);
+      return text + "]";
+    }
+  };
+  return std::visit(Writer{}, value);
 }
 
 }  // namespace nbvopt
