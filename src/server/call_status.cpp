@@ -5,7 +5,6 @@
 
 #include "nbvopt/core/error.hpp"
 #include "protocol/limit_error.hpp"
-#include "server/request_error.hpp"
 
 namespace nbvopt {
 

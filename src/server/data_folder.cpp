@@ -9,7 +9,7 @@
 
 #include "core/atomic_file.hpp"
 #include "nbvopt/core/error.hpp"
-#include "server/request_error.hpp"
+#include "server/call_status.hpp"
 
 namespace nbvopt {
 namespace {

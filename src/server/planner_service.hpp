@@ -12,7 +12,7 @@
 
 #include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/call_log.hpp"
-#include "server/open_streams.hpp"
+#include "server/limits.hpp"
 #include "server/request_handler.hpp"
 #include "server/work_queue.hpp"
 

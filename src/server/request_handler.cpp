@@ -12,7 +12,7 @@
 #include "nbvopt/map/map_file.hpp"
 #include "protocol/limit_error.hpp"
 #include "protocol/messages.hpp"
-#include "server/request_error.hpp"
+#include "server/call_status.hpp"
 #include "server/versions.hpp"
 
 namespace nbvopt {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nbvopt/v1/planner.pb.h"
-#include "server/open_streams.hpp"
+#include "server/limits.hpp"
 #include "server/queued_call.hpp"
 #include "server/request_handler.hpp"
 

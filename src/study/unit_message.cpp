@@ -8,11 +8,18 @@
 #include "nbvopt/core/error.hpp"
 #include "sensor/sensor_names.hpp"
 
+namespace nbvopt {
+
+template <>
+inline constexpr auto kEnumNames<study::WorkKind> = std::to_array<EnumName<study::WorkKind>>({
+    {study::WorkKind::query, "query"},
+    {study::WorkKind::reference, "reference"},
+});
+
+}  // namespace nbvopt
+
 namespace nbvopt::study {
 namespace {
-
-constexpr const char* kQuery = "query";
-constexpr const char* kReference = "reference";
 
 /// Null stands for a limit that there is not.
 Json limit_json(auto limit) { return limit > 0 ? Json(limit) : Json(nullptr); }
@@ -35,11 +42,10 @@ WorkUnit read_unit(const Json& json) {
                 .budget = {},
                 .seed = 1};
   const auto kind = json.at("kind").get<std::string>();
-  if (kind == kReference) {
-    unit.kind = WorkKind::reference;
-    return unit;
-  }
-  if (kind != kQuery) throw InputError("unit: kind '" + kind + "' is not known");
+  const auto known = enum_value<WorkKind>(kind);
+  if (!known) throw InputError("unit: kind '" + kind + "' is not known");
+  unit.kind = *known;
+  if (unit.kind == WorkKind::reference) return unit;
   unit.search = search_of(json.at("search"));
   unit.budget = budget_of(json);
   unit.seed = json.at("seed").get<std::uint64_t>();
@@ -91,7 +97,7 @@ UncertaintyMode mode_of(const std::string& name) {
 
 experiment::Unit message_of(const WorkUnit& unit) {
   const bool is_query = unit.kind == WorkKind::query;
-  Json json{{"kind", is_query ? kQuery : kReference},
+  Json json{{"kind", enum_name(unit.kind)},
             {"map", unit.map.string()},
             {"map_digest", unit.map_digest},
             {"robot", unit.robot.string()},

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "core/text_file.hpp"
-#include "server/request_error.hpp"
+#include "server/call_status.hpp"
 #include "support/error_message.hpp"
 #include "support/temporary_folder.hpp"
 

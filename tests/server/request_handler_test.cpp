@@ -7,7 +7,7 @@
 #include "nbvopt/solver/registry.hpp"
 #include "protocol/limit_error.hpp"
 #include "protocol/messages.hpp"
-#include "server/request_error.hpp"
+#include "server/call_status.hpp"
 #include "server/server_world.hpp"
 #include "support/error_message.hpp"
 #include "support/temporary_folder.hpp"

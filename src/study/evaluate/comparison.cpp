@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "study/evaluate/ratio.hpp"
-#include "study/evaluate/sample.hpp"
+#include "study/evaluate/summary.hpp"
 
 namespace nbvopt::study {
 namespace {

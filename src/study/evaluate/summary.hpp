@@ -1,4 +1,4 @@
-// Each solver within each budget.
+// What sums up numbers, and the runs of each solver within each budget.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,13 @@
 #include "study/results.hpp"
 
 namespace nbvopt::study {
+
+/// NaN of no values.
+double mean(const std::vector<double>& values);
+
+/// The value below which a share, in [0, 1], of the sample lies; between two values it is
+/// interpolated linearly, so 0.5 gives the median and 0 the least. NaN of no values.
+double quantile(std::vector<double> values, double share);
 
 /// Figures are NaN where no run has any.
 struct Summary {

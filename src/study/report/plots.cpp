@@ -10,7 +10,7 @@
 #include "plot/line_chart.hpp"
 #include "plot/style.hpp"
 #include "report/text_table.hpp"
-#include "study/evaluate/sample.hpp"
+#include "study/evaluate/summary.hpp"
 #include "study/report/lines.hpp"
 
 namespace nbvopt {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "study/evaluate/sample.hpp"
 #include "study/made_results.hpp"
 
 namespace nbvopt::study {
