@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gain/camera_pose_check.hpp"
+#include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
@@ -14,6 +15,7 @@ class PaperCodeEvaluator final : public ViewEvaluator {
  public:
   PaperCodeEvaluator(const UncertaintyMap& map, const SensorOptions& sensor)
       : map_(map),
+        tree_(detail::MapAccess::tree(map)),
         sensor_(sensor),
         uncertainty_(sensor),
         none_stored_(map.carries_uncertainty() ? 1.0 : sensor.occupied_uncertainty) {
@@ -46,7 +48,7 @@ class PaperCodeEvaluator final : public ViewEvaluator {
       if (r >= sensor_.range_max_m) break;
       const Eigen::Vector3d p_sensor = r * unit_point;
       const Eigen::Vector3d p_map = T_map_sensor * p_sensor;
-      const UncertaintyOcTreeNode* node = map_.tree().search(
+      const UncertaintyOcTreeNode* node = tree_.search(
           octomap::point3d(static_cast<float>(p_map.x()), static_cast<float>(p_map.y()),
                            static_cast<float>(p_map.z())));
       if (node == nullptr) {
@@ -54,7 +56,7 @@ class PaperCodeEvaluator final : public ViewEvaluator {
         view.unknown_gain += 1.0 - uncertainty_.uncertainty(p_sensor);  // Equation (12)
         return;
       }
-      if (map_.tree().isNodeOccupied(node)) {
+      if (tree_.isNodeOccupied(node)) {
         const double u_old =
             node->uncertainty() == kUnknownUncertainty ? none_stored_ : node->uncertainty();
         ++view.occupied_rays;
@@ -67,6 +69,7 @@ class PaperCodeEvaluator final : public ViewEvaluator {
   }
 
   const UncertaintyMap& map_;
+  const UncertaintyOcTree& tree_;
   SensorOptions sensor_;
   UncertaintyModel uncertainty_;
   double none_stored_;

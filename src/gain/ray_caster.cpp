@@ -8,6 +8,7 @@
 #include "gain/camera_pose_check.hpp"
 #include "gain/ray_walk.hpp"
 #include "map/brick_table.hpp"
+#include "map/map_access.hpp"
 
 namespace nbvopt {
 
@@ -50,7 +51,7 @@ void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::Local
     local.code.clear();
     bool complete = true;
     box.for_each([&](BrickKey key) {
-      const detail::Brick* brick = grid.table().ready_brick(key);
+      const detail::Brick* brick = detail::MapAccess::table(grid).ready_brick(key);
       complete = complete && brick != nullptr;
       local.brick.push_back(brick);
       local.code.push_back(brick != nullptr ? brick->code.data() : nullptr);
@@ -58,7 +59,7 @@ void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::Local
     return complete;
   };
   if (collect()) return;
-  grid.table().make_ready(box);
+  detail::MapAccess::table(grid).make_ready(box);
   collect();
 }
 

@@ -151,6 +151,7 @@ void BrickTable::make_ready(const BrickBox& box) const {
   };
   if (missing_in(box).empty()) return;
   const std::scoped_lock lock(mutex_);
+  if (is_whole()) return;
   const std::vector<BrickKey> missing = missing_in(box);
 
   // Codes need the neighbours' states too.
@@ -159,8 +160,8 @@ void BrickTable::make_ready(const BrickBox& box) const {
                                          {box.max.x + 1, box.max.y + 1, box.max.z + 1}})) {
     if (!states_.contains(packed(key))) read.emplace_back(key, unknown_brick()->states);
   }
-  for_each_in_parallel(read, [this](auto& brick) {
-    if (auto states = read_brick(*tree_, brick.first)) brick.second = std::move(states);
+  for_each_in_parallel(read, [&tree = *tree_.load()](auto& brick) {
+    if (auto states = read_brick(tree, brick.first)) brick.second = std::move(states);
   });
   for (auto& [key, states] : read) states_.emplace(packed(key), std::move(states));
 
@@ -189,6 +190,7 @@ void BrickTable::read_all() {
     make_ready(
         {first, {first.x + kBlockSize - 1, first.y + kBlockSize - 1, first.z + kBlockSize - 1}});
   });
+  const std::scoped_lock lock(mutex_);
   states_.clear();
   tree_ = nullptr;
 }

@@ -50,7 +50,7 @@ class BrickTable {
   /// A table of the same bricks, with the changes. Requires read_all() to have been called.
   BrickTable(const BrickTable& previous, std::span<const VoxelChange> changes);
 
-  /// Reads what is left, and lets go of the tree.
+  /// Reads what is left, and lets go of the tree. Thread-safe.
   void read_all();
   bool is_whole() const { return tree_ == nullptr; }
 
@@ -117,7 +117,7 @@ class BrickTable {
   /// The states of a brick that is ready or has been read.
   const std::shared_ptr<const BrickStates>& states_of(BrickKey key) const;
 
-  const UncertaintyOcTree* tree_ = nullptr;  ///< null once everything is read
+  std::atomic<const UncertaintyOcTree*> tree_ = nullptr;  ///< null once everything is read
   Block* unknown_block_ = unknown_block();
   BrickKey min_;
   BrickKey size_{0, 0, 0};

@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
+#include "map/map_access.hpp"
 #include "map/map_format_names.hpp"
 #include "map/map_header.hpp"
 #include "map/uncertainty_octree.hpp"
@@ -130,7 +131,7 @@ std::string ply_file(const UncertaintyMap& map) {
                       std::to_string(map.counts().occupied_voxels) +
                       "\nproperty float x\nproperty float y\nproperty float z\n"
                       "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
-  const UncertaintyOcTree& tree = map.tree();
+  const UncertaintyOcTree& tree = detail::MapAccess::tree(map);
   for_each_leaf(tree, [&](const Node& leaf, VoxelKey origin, int depth) {
     if (!tree.isNodeOccupied(&leaf)) return;
     const int size = 1 << (UncertaintyOcTree::kDepth - depth);
@@ -156,11 +157,11 @@ std::string to_string(MapFormat value) { return std::string(enum_name(value)); }
 std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
   switch (format) {
     case MapFormat::uncertainty_ot:
-      return uncertainty_file(map.tree());
+      return uncertainty_file(detail::MapAccess::tree(map));
     case MapFormat::bt:
-      return BinaryWriter(map.tree()).file();
+      return BinaryWriter(detail::MapAccess::tree(map)).file();
     case MapFormat::colour_ot:
-      return colour_file(map.tree());
+      return colour_file(detail::MapAccess::tree(map));
     case MapFormat::colour_ply:
       return ply_file(map);
   }

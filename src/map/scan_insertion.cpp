@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "map/map_access.hpp"
 #include "map/mark_window.hpp"
 #include "map/scan_rays.hpp"
 #include "map/scan_windows.hpp"
@@ -52,7 +53,7 @@ InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform&
   result.rays_cleared = rays.cleared;
   result.points_ignored = rays.ignored;
   for (const WindowWork& work : scan_windows(std::move(rays))) {
-    insert_window(map.tree(), scan, work, result);
+    insert_window(detail::MapAccess::tree(map), scan, work, result);
   }
   return result;
 }

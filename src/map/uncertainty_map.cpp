@@ -109,7 +109,8 @@ void UncertaintyMap::set(VoxelKey key, const VoxelRecord& record) {
       !(record.uncertainty >= 0.0F && record.uncertainty <= 1.0F)) {
     throw UsageError("a voxel's log-odds must be finite, its uncertainty in [0, 1]");
   }
-  Node& node = tree().make_voxel(key);
+  is_plain_ = false;
+  Node& node = tree_->make_voxel(key);
   node.setLogOdds(record.log_odds);
   node.set_uncertainty(tree_->isNodeOccupied(&node) ? record.uncertainty : kUnknownUncertainty);
   node.set_colour(record.colour);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "map/brick_table.hpp"
+#include "map/map_access.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -16,8 +17,8 @@ VoxelGrid::VoxelGrid(const Lattice& lattice, std::unique_ptr<BrickTable> table,
 VoxelGrid::~VoxelGrid() = default;
 
 std::shared_ptr<VoxelGrid> VoxelGrid::of(const UncertaintyMap& map, std::uint64_t version) {
-  std::shared_ptr<VoxelGrid> grid(
-      new VoxelGrid(map.lattice(), std::make_unique<BrickTable>(map.tree()), version));
+  std::shared_ptr<VoxelGrid> grid(new VoxelGrid(
+      map.lattice(), std::make_unique<BrickTable>(detail::MapAccess::tree(map)), version));
   grid->carries_uncertainty_ = map.carries_uncertainty();
   grid->has_occupied_ = map.has_occupied();
   return grid;
@@ -48,6 +49,8 @@ std::shared_ptr<const VoxelGrid> VoxelGrid::updated(std::span<const VoxelChange>
 }
 
 void VoxelGrid::make_ready(const KeyBox& box) const { table_->make_ready(detail::bricks_of(box)); }
+
+void VoxelGrid::read_all() const { table_->read_all(); }
 
 VoxelState VoxelGrid::state(VoxelKey key) const {
   return table_->ready_brick(detail::brick_of(key))->states->state(key);

@@ -14,6 +14,7 @@
 #include <random>
 #include <sstream>
 
+#include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
@@ -128,14 +129,14 @@ TEST(MapFile, ReadsABtAsOctoMapDoes) {
   const UncertaintyMap map = read_map(folder / "map.bt");
   octomap::OcTree tree(1.0);
   ASSERT_TRUE(tree.readBinary(folder / "map.bt"));
-  EXPECT_EQ(map.tree().size(), tree.size());
+  EXPECT_EQ(detail::MapAccess::tree(map).size(), tree.size());
   for_each_voxel_around(map, [&](VoxelKey key) {
     const octomap::OcTreeNode* node = tree.search(octomap_key(key));
     ASSERT_EQ(map.at(key).state == VoxelState::unknown, node == nullptr);
     EXPECT_EQ(map.at(key).log_odds, node != nullptr ? node->getLogOdds() : 0.0F);
   });
   EXPECT_FALSE(map.carries_uncertainty());
-  EXPECT_EQ(map.tree().getRoot()->getLogOdds(), tree.getRoot()->getLogOdds());
+  EXPECT_EQ(detail::MapAccess::tree(map).getRoot()->getLogOdds(), tree.getRoot()->getLogOdds());
 }
 
 TEST(MapFile, ReadsABtOfAnotherTreeType) {

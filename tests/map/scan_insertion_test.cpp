@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/scan.hpp"
@@ -325,17 +326,17 @@ TEST(InsertScan, LeavesTheTreeInOrder) {
   }
   const auto inner_nodes = [&map] {
     std::vector<std::pair<float, float>> inner;
-    const UncertaintyOcTree& tree = map.tree();
+    const UncertaintyOcTree& tree = detail::MapAccess::tree(map);
     for (auto it = tree.begin_tree(); it != tree.end_tree(); ++it) {
       if (!it.isLeaf()) inner.emplace_back(it->getLogOdds(), it->uncertainty());
     }
     return inner;
   };
   const auto before = inner_nodes();
-  const std::size_t nodes = map.tree().size();
-  EXPECT_EQ(nodes, map.tree().calcNumNodes());
+  const std::size_t nodes = detail::MapAccess::tree(map).size();
+  EXPECT_EQ(nodes, detail::MapAccess::tree(map).calcNumNodes());
   map.finish_writing();
-  EXPECT_EQ(map.tree().size(), nodes);
+  EXPECT_EQ(detail::MapAccess::tree(map).size(), nodes);
   EXPECT_EQ(inner_nodes(), before);
 }
 

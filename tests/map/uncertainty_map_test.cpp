@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -132,8 +133,8 @@ TEST(UncertaintyMap, HoldsTheMaximaOfChildrenInInnerNodes) {
   strong.log_odds = 3.0F;
   map.set({32770, 32768, 32768}, strong);
   map.finish_writing();
-  EXPECT_EQ(map.tree().getRoot()->getLogOdds(), 3.0F);
-  EXPECT_EQ(map.tree().getRoot()->uncertainty(), 0.75F);
+  EXPECT_EQ(detail::MapAccess::tree(map).getRoot()->getLogOdds(), 3.0F);
+  EXPECT_EQ(detail::MapAccess::tree(map).getRoot()->uncertainty(), 0.75F);
 }
 
 /// Equations (10) and (11) over leaves of several sizes.
@@ -150,7 +151,7 @@ TEST(UncertaintyMap, CountsVoxelsAndInformation) {
   EXPECT_EQ(counts.certain_voxels, 65U);
   EXPECT_EQ(counts.information, 64 * 0.75 + 0.5);
   EXPECT_EQ(counts.leaves, 4U);
-  EXPECT_EQ(counts.nodes, map.tree().calcNumNodes());
+  EXPECT_EQ(counts.nodes, detail::MapAccess::tree(map).calcNumNodes());
 }
 
 TEST(UncertaintyMap, KnowsTheLeastBoxOfWhatItKnows) {

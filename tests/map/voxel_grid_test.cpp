@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "map/brick_table.hpp"
+#include "map/map_access.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/ray_caster.hpp"
 #include "nbvopt/map/scan.hpp"
@@ -55,8 +56,8 @@ void expect_equals_map(const VoxelGrid& grid, const UncertaintyMap& map, const K
 /// States, u and the codes that rays are cast on, brick by brick.
 void expect_same_bricks(const VoxelGrid& a, const VoxelGrid& b, const KeyBox& box) {
   detail::bricks_of(box).for_each([&](BrickKey key) {
-    const detail::Brick& in_a = *a.table().ready_brick(key);
-    const detail::Brick& in_b = *b.table().ready_brick(key);
+    const detail::Brick& in_a = *detail::MapAccess::table(a).ready_brick(key);
+    const detail::Brick& in_b = *detail::MapAccess::table(b).ready_brick(key);
     EXPECT_EQ(in_a.states->occupied, in_b.states->occupied);
     EXPECT_EQ(in_a.states->free, in_b.states->free);
     EXPECT_EQ(in_a.states->uncertainty, in_b.states->uncertainty);
@@ -276,7 +277,8 @@ TEST(VoxelGridUpdate, SharesTheBricksThatNoChangeReaches) {
   const VoxelKey key = key_from_origin(3, 16, 20);
   const VoxelState was = before->state(key);
   const auto shares = [&](const VoxelGrid& after, BrickKey brick) {
-    return before->table().ready_brick(brick) == after.table().ready_brick(brick);
+    return detail::MapAccess::table(*before).ready_brick(brick) ==
+           detail::MapAccess::table(after).ready_brick(brick);
   };
   const BrickBox around = detail::bricks_of(kMargin);
 
@@ -326,7 +328,8 @@ TEST(VoxelGridUpdate, RecodesNothingForANewUncertainty) {
   EXPECT_EQ(before->uncertainty(key_from_origin(0, 0, 0)), 0.75F);
   const BrickKey changed = detail::brick_of(key_from_origin(0, 0, 0));
   detail::bricks_of(kMargin).for_each([&](BrickKey brick) {
-    EXPECT_EQ(before->table().ready_brick(brick) == after->table().ready_brick(brick),
+    EXPECT_EQ(detail::MapAccess::table(*before).ready_brick(brick) ==
+                  detail::MapAccess::table(*after).ready_brick(brick),
               brick != changed);
   });
 }

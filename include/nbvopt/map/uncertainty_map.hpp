@@ -12,6 +12,10 @@ namespace nbvopt {
 
 class UncertaintyOcTree;  // src/map/uncertainty_octree.hpp: OctoMap stays out of public headers
 
+namespace detail {
+struct MapAccess;
+}
+
 /// What is known of one voxel.
 struct VoxelRecord {
   VoxelState state = VoxelState::unknown;
@@ -79,14 +83,9 @@ class UncertaintyMap {
   /// Whether any voxel is occupied; takes no time.
   bool has_occupied() const;
 
-  const UncertaintyOcTree& tree() const { return *tree_; }
-  /// For writing.
-  UncertaintyOcTree& tree() {
-    is_plain_ = false;
-    return *tree_;
-  }
-
  private:
+  friend struct detail::MapAccess;
+
   std::unique_ptr<UncertaintyOcTree> tree_;
   Lattice lattice_;
   bool is_plain_;  ///< known to carry no uncertainty

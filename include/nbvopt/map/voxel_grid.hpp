@@ -16,7 +16,8 @@ namespace nbvopt {
 
 namespace detail {
 class BrickTable;
-}
+struct MapAccess;
+}  // namespace detail
 
 class VoxelGrid {
  public:
@@ -48,6 +49,10 @@ class VoxelGrid {
   /// cast, and voxels looked up, only inside boxes that were made ready.
   void make_ready(const KeyBox& box) const;
 
+  /// Makes every brick ready and lets go of the map, which may then change or go: the grid is as
+  /// whole() makes it. Thread-safe.
+  void read_all() const;
+
   VoxelState state(VoxelKey key) const;
 
   /// u of an occupied voxel; 1 of any other.
@@ -62,12 +67,11 @@ class VoxelGrid {
   /// What the bricks take, bytes; bricks shared with other versions included.
   std::size_t memory_bytes() const;
 
-  /// For the ray caster.
-  const detail::BrickTable& table() const { return *table_; }
-
   ~VoxelGrid();
 
  private:
+  friend struct detail::MapAccess;
+
   static std::shared_ptr<VoxelGrid> of(const UncertaintyMap& map, std::uint64_t version);
 
   VoxelGrid(const Lattice& lattice, std::unique_ptr<detail::BrickTable> table,
