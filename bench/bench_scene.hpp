@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
+#include "nbvopt/planner/robot.hpp"
 
 namespace nbvopt::bench {
 

@@ -3,8 +3,7 @@
 #include <utility>
 
 #include "bench/measurements.hpp"
-#include "nbvopt/map/map_file.hpp"
-#include "nbvopt/map/scan.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "office_scene.hpp"
 #include "simulated_scan.hpp"
 
@@ -34,16 +33,10 @@ Recording record_office() {
 
 void add_map_measurements(const std::shared_ptr<const BenchScene>& scene,
                           std::vector<Measurement>& measurements) {
-  const auto grid = VoxelGrid::lazy(scene->map);
-  const std::shared_ptr<const ViewEvaluator> evaluator =
-      make_exact_evaluator(grid, DepthCamera(scene->robot.sensor));
-  const auto planner = std::make_shared<const Planner>(scene->robot, grid, evaluator);
-  const auto fill_bricks = [scene, planner](std::size_t i) {
+  const auto fill_bricks = [scene](std::size_t i) {
     const PlanRequest& request = scene->requests[i];
-    return seconds_of([&] {
-      const auto query_grid = VoxelGrid::lazy(scene->map);
-      query_grid->make_ready(planner->reachable_voxels(request));
-    });
+    return seconds_of(
+        [&] { ViewPlanner(VoxelGrid::lazy(scene->map), scene->robot).make_ready(request); });
   };
   const auto read = [scene](std::size_t) {
     return seconds_of([&] { benchmark::DoNotOptimize(read_map(scene->map_file)); });

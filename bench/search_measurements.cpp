@@ -9,17 +9,11 @@ namespace nbvopt::bench {
 namespace {
 
 SearchScene make_search_scene(const std::shared_ptr<const BenchScene>& scene) {
-  const std::shared_ptr<const VoxelGrid> grid = VoxelGrid::whole(scene->map);
-  const std::shared_ptr<const ViewEvaluator> exact =
-      make_exact_evaluator(grid, DepthCamera(scene->robot.sensor));
-  Robot paper_code_robot = scene->robot;
-  paper_code_robot.sensor = paper_code_sensor(scene->robot.sensor);
-  const std::shared_ptr<const ViewEvaluator> paper_code =
-      make_paper_code_evaluator(scene->map, paper_code_robot.sensor);
+  const auto map = std::make_shared<SharedMap>(read_map(scene->map_file));
+  map->grid()->read_all();
   return {.scene = scene,
-          .exact = exact,
-          .planner = Planner(scene->robot, grid, exact),
-          .paper_code_planner = Planner(paper_code_robot, grid, paper_code)};
+          .planner = ViewPlanner(map, scene->robot),
+          .paper_code_planner = ViewPlanner(map, scene->robot, "paper-code")};
 }
 
 }  // namespace
@@ -28,12 +22,12 @@ SearchAnswer answer(const SearchScene& scene, const Search& search, std::size_t 
                     const StopRule& stop) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(search.threads));
-  const Planner& planner = search.on_paper_code ? scene.paper_code_planner : scene.planner;
+  const ViewPlanner& planner = search.on_paper_code ? scene.paper_code_planner : scene.planner;
   PlanRequest request = scene.scene->requests[query];
   request.stop = stop;
   PlanResult result;
   const double time_s = seconds_of([&] { result = planner.plan(request, *search.solver); });
-  return {.gain = scene.exact->evaluate(result.T_map_sensor).gain,
+  return {.gain = scene.planner.evaluate(result.T_map_sensor).gain,
           .evaluations = result.evaluations,
           .surrogate_evaluations = result.surrogate_evaluations,
           .time_s = time_s};

@@ -10,16 +10,15 @@
 #include "bench/bench_scene.hpp"
 #include "bench/measurement.hpp"
 #include "bench/searches.hpp"
-#include "nbvopt/gain/view_evaluator.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 
 namespace nbvopt::bench {
 
 /// A map whose grid of voxels is ready, as a robot's is that asks for view after view.
 struct SearchScene {
   std::shared_ptr<const BenchScene> scene;
-  std::shared_ptr<const ViewEvaluator> exact;
-  Planner planner;             ///< on `exact`
-  Planner paper_code_planner;  ///< on paper-code, with the camera that it describes
+  ViewPlanner planner;
+  ViewPlanner paper_code_planner;
 };
 
 /// What a search answered to one query.

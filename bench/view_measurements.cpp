@@ -1,9 +1,12 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
+#include <optional>
+#include <utility>
+
 #include "bench/measurements.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/solver/registry.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 
 namespace nbvopt::bench {
 namespace {
@@ -54,18 +57,16 @@ Measurement all_views(const Scene& scene, const Evaluator& evaluator, std::strin
           .baseline = kOneThread};
 }
 
-using MakeEvaluator = std::function<Evaluator(std::shared_ptr<const VoxelGrid>)>;
-
 /// The paper's pan grid on a map in memory, the grid's bricks included, on one core.
-Measurement pan_grid_queries(const Scene& scene, std::string name, const Robot& robot,
-                             const MakeEvaluator& make_evaluator) {
-  const std::shared_ptr<const Solver> solver = make_solver("grid", {.grid_steps = {0.8, 0.0, 0.0}});
-  const auto query = [=](std::size_t i) {
+Measurement pan_grid_queries(const Scene& scene, std::string name, const std::string& evaluator) {
+  const auto query = [scene, evaluator](std::size_t i) {
     const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
+    UncertaintyMap map = read_map(scene->map_file);
+    std::optional<ViewPlanner> planner;
     return seconds_of([&] {
-      const auto grid = VoxelGrid::lazy(scene->map);
-      const Planner planner(robot, grid, make_evaluator(grid));
-      benchmark::DoNotOptimize(planner.plan(scene->requests[i], *solver));
+      planner.emplace(std::move(map), scene->robot, evaluator);
+      benchmark::DoNotOptimize(planner->plan(
+          scene->requests[i], nbvopt::Search{.solver = "grid", .grid_steps = {0.8, 0.0, 0.0}}));
     });
   };
   return {.scene = scene->name,
@@ -100,18 +101,8 @@ void add_view_measurements(const Scene& scene, std::vector<Measurement>& measure
   measurements.push_back(all_views(scene, exact, kOneThread, 1));
   measurements.push_back(all_views(scene, exact, "exact, 48 views of 48 x 36 rays, 2 threads", 2));
 
-  Robot paper_code_robot = scene->robot;
-  paper_code_robot.sensor = paper_code_sensor(scene->robot.sensor);
-  measurements.push_back(
-      pan_grid_queries(scene, kPaperCodeQuery, paper_code_robot,
-                       [scene, paper_code_robot](const std::shared_ptr<const VoxelGrid>&) {
-                         return make_paper_code_evaluator(scene->map, paper_code_robot.sensor);
-                       }));
-  measurements.push_back(
-      pan_grid_queries(scene, "pan-grid query, exact", scene->robot,
-                       [camera = DepthCamera(scene->robot.sensor)](auto query_grid) {
-                         return make_exact_evaluator(std::move(query_grid), camera);
-                       }));
+  measurements.push_back(pan_grid_queries(scene, kPaperCodeQuery, "paper-code"));
+  measurements.push_back(pan_grid_queries(scene, "pan-grid query, exact", "exact"));
 }
 
 }  // namespace nbvopt::bench

@@ -3,6 +3,7 @@
 #include <CLI/Option.hpp>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "cli/options/view_arguments.hpp"
 #include "cli/terminal/output.hpp"
@@ -10,8 +11,7 @@
 #include "core/stopwatch.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/map/map_file.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "planner/pose_file.hpp"
 
 namespace nbvopt {
@@ -49,28 +49,30 @@ void check_on_lattice(const PoseFile& poses, const Lattice& lattice, const std::
 }
 
 void run_evaluate(const EvaluateOptions& options) {
-  PoseFile poses = read_pose_file(options.pose_file, make_robot(options.view));
-  set_counting(poses.sensor, options.view);
+  Robot robot = make_robot(options.view);
+  const PoseFile poses = read_pose_file(options.pose_file, robot);
+  robot.sensor = poses.sensor;
+  set_counting(robot.sensor, options.view);
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
-  const UncertaintyMap map = read_map(options.map_file);
+  UncertaintyMap map = read_map(options.map_file);
   const double map_load_ms = loading.elapsed_ms();
   check_on_lattice(poses, map.lattice(), options.pose_file);
 
-  const auto evaluator =
-      make_evaluator(options.view.evaluator, map, VoxelGrid::lazy(map), poses.sensor);
+  const ViewPlanner planner =
+      ViewPlanner::with_given_sensor(std::move(map), robot, options.view.evaluator);
   const Stopwatch evaluating;
-  const std::vector<ViewGain> gains = evaluate_views(*evaluator, poses.poses_T_map_sensor);
+  const std::vector<ViewGain> gains = planner.evaluate(poses.poses_T_map_sensor);
   const double time_ms = evaluating.elapsed_ms();
 
   Json cases = Json::array();
   for (const ViewGain& gain : gains) cases.push_back(to_json(gain));
   const double rays =
-      double{1} * poses.sensor.horizontal_rays * poses.sensor.vertical_rays * gains.size();
+      double{1} * robot.sensor.horizontal_rays * robot.sensor.vertical_rays * gains.size();
   print_answer(to_text({{"map", options.map_file},
                         {"evaluator", options.view.evaluator},
-                        {"counting", to_string(poses.sensor.counting)},
+                        {"counting", to_string(robot.sensor.counting)},
                         {"map_load_ms", map_load_ms},
                         {"time_ms", time_ms},
                         {"rays_per_second", rays / time_ms * 1e3},

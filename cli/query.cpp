@@ -19,12 +19,10 @@
 #include "core/stopwatch.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/map/map_file.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/registry.hpp"
-#include "planner/landscape.hpp"
-#include "planner/trace.hpp"
+#include "planner/search_json.hpp"
 #include "plot/query_plot.hpp"
 
 namespace nbvopt {
@@ -107,39 +105,35 @@ PlanRequest request_of(const QueryOptions& options, double lowest_m) {
   request.stop.max_evaluations = options.max_evaluations;
   request.record_trace = !options.trace_file.empty() || wants_landscape(options);
   if (options.time_limit_ms) {
-    request.stop.deadline = StopRule::Clock::now() +
-                            std::chrono::duration_cast<StopRule::Clock::duration>(
-                                std::chrono::duration<double, std::milli>(*options.time_limit_ms));
+    request.stop.deadline = StopRule::within(*options.time_limit_ms).deadline;
   }
   return request;
 }
 
 /// Writes the files that explain the answer.
-void write_explanations(const QueryOptions& options, const Robot& robot, const VoxelGrid& grid,
-                        const ViewEvaluator& evaluator, const QueryAnswer& answer) {
-  const PlanRequest& request = answer.request;
-  const PlanResult& result = answer.result;
+void write_explanations(const QueryOptions& options, const ViewPlanner& planner,
+                        const PlanResult& result) {
   if (!options.trace_file.empty()) {
     write_file_atomically(options.trace_file, to_json_lines(result.trace));
   }
   if (!wants_landscape(options)) return;
-  const GainLandscape landscape = sample_landscape(evaluator, Mast(robot.mast), request, result);
+  const Landscape landscape = planner.landscape(result);
   const std::vector<double> pans_rad = candidate_pans(options.solver, result.box);
   if (!options.landscape_file.empty()) {
     write_file_atomically(options.landscape_file,
-                          to_json(landscape, request, result, pans_rad).dump() + '\n');
+                          to_json(landscape, result, pans_rad).dump() + '\n');
   }
   if (!options.plot_file.empty()) {
-    write_plot({grid, evaluator, robot, request, result, landscape, pans_rad}, options.plot_file);
+    write_plot({planner, result, landscape, pans_rad}, options.plot_file);
   }
 }
 
 QueryAnswer ask_server(const QueryOptions& options) {
   PlannerClient client(options.server, options.tls);
   QueryAnswer answer;
-  answer.request = request_of(options, *options.height_m);
+  const PlanRequest request = request_of(options, *options.height_m);
   const Stopwatch calling;
-  RemotePlan plan = client.plan(answer.request, search_of(options.solver));
+  RemotePlan plan = client.plan(request, search_of(options.solver));
   answer.remote = {.server = options.server, .call_ms = calling.elapsed_ms()};
   answer.counting = plan.counting;
   answer.result = std::move(plan.result);
@@ -152,26 +146,17 @@ QueryAnswer search_map(const QueryOptions& options) {
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;
-  const UncertaintyMap map = read_map(options.map_file);
+  UncertaintyMap map = read_map(options.map_file);
   QueryAnswer answer;
   answer.evaluator = options.view.evaluator;
   answer.counting = robot.sensor.counting;
   answer.map_load_ms = loading.elapsed_ms();
   // Its time limit counts from here.
-  answer.request = request_of(options, robot.mast.height_min_m);
-  std::vector<std::string> warnings;
-  answer.request.joints = Mast(robot.mast).clamped(answer.request.joints, warnings);
-
-  const Stopwatch filling;
-  const auto grid = VoxelGrid::lazy(map);
-  const std::shared_ptr<const ViewEvaluator> evaluator =
-      make_evaluator(options.view.evaluator, map, grid, robot.sensor);
-  const Planner planner(robot, grid, evaluator);
-  grid->make_ready(planner.reachable_voxels(answer.request));
-  answer.grid_ms = filling.elapsed_ms();
-  answer.result = planner.plan(answer.request, *solver);
-  answer.result.warnings.insert(answer.result.warnings.begin(), warnings.begin(), warnings.end());
-  write_explanations(options, robot, *grid, *evaluator, answer);
+  const PlanRequest request = request_of(options, robot.mast.height_min_m);
+  const ViewPlanner planner =
+      ViewPlanner::with_given_sensor(std::move(map), robot, options.view.evaluator);
+  answer.result = planner.plan(request, *solver);
+  write_explanations(options, planner, answer.result);
   return answer;
 }
 

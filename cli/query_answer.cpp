@@ -68,7 +68,7 @@ std::string cost(const QueryAnswer& answer) {
                   answer.remote->call_ms);
   } else {
     std::snprintf(text.data(), text.size(), "map read %.1f ms, grid %.1f ms", answer.map_load_ms,
-                  answer.grid_ms);
+                  answer.result.grid_ms);
   }
   return text.data();
 }
@@ -101,7 +101,7 @@ Json to_json(const QueryAnswer& answer) {
             {"active_bounds", result.active_bounds},
             {"warnings", result.warnings},
             {"pose", pose_json(result.T_map_sensor)}};
-  if (!answer.request.base_twist.is_zero()) {
+  if (!answer.result.request.base_twist.is_zero()) {
     json["base_on_arrival"] = base_json(result.T_map_base);
   }
   if (answer.remote) {
@@ -110,7 +110,7 @@ Json to_json(const QueryAnswer& answer) {
     json["map_version"] = result.map_version;
   } else {
     json["map_load_ms"] = answer.map_load_ms;
-    json["grid_ms"] = answer.grid_ms;
+    json["grid_ms"] = result.grid_ms;
   }
   return json;
 }
@@ -120,7 +120,7 @@ std::string to_text(const QueryAnswer& answer) {
   const JointPosition& q = result.joints;
   const Eigen::Vector3d p = result.T_map_sensor.translation();
   const Eigen::Vector3d forward = result.T_map_sensor.linear().col(2);
-  const double limit_s = answer.request.motion_time_s;
+  const double limit_s = answer.result.request.motion_time_s;
 
   std::string text =
       line("look    pan %.3f rad (%.1f deg), tilt %.3f rad (%.1f deg), height %.3f m", q.pan_rad,
@@ -135,7 +135,7 @@ std::string to_text(const QueryAnswer& answer) {
   if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';
   text += limit_s > 0.0 ? line("move    %.2f s of %.2f s", result.move_time_s, limit_s)
                         : line("move    %.2f s, no limit", result.move_time_s);
-  if (!answer.request.base_twist.is_zero()) {
+  if (!answer.result.request.base_twist.is_zero()) {
     const Eigen::Vector3d base_m = result.T_map_base.translation();
     text += line("base    at %.3f, %.3f, %.3f m in the map, yaw %.3f rad, when the joints arrive",
                  base_m.x(), base_m.y(), base_m.z(), yaw_rad(result.T_map_base));

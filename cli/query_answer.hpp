@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/json.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 
 namespace nbvopt {
 
@@ -17,13 +17,11 @@ struct RemoteCall {
 
 /// What the planner said, and what it cost to get there.
 struct QueryAnswer {
-  PlanRequest request;
   PlanResult result;
   std::string evaluator = "exact";
   Counting counting = Counting::per_ray;
-  std::optional<RemoteCall> remote;  ///< none: searched here, at the cost below
+  std::optional<RemoteCall> remote;  ///< none: searched here, on a map that was read
   double map_load_ms = 0.0;
-  double grid_ms = 0.0;  ///< making the reachable bricks ready
 };
 
 /// One object with the keys that docs/guide/query.md explains.

@@ -1,25 +1,17 @@
 // Plans a view on a map made in memory, with the installed package alone.
 #include <cstdio>
-#include <memory>
 
-#include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/map/uncertainty_map.hpp"
-#include "nbvopt/map/voxel_grid.hpp"
-#include "nbvopt/planner/planner.hpp"
-#include "nbvopt/solver/registry.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 
 int main() {
-  const nbvopt::UncertaintyMap map(0.1);
   const nbvopt::Robot robot;
-  const auto grid = nbvopt::VoxelGrid::lazy(map);
-  const nbvopt::Planner planner(
-      robot, grid, nbvopt::make_exact_evaluator(grid, nbvopt::DepthCamera(robot.sensor)));
+  const nbvopt::ViewPlanner planner(nbvopt::UncertaintyMap(0.1), robot);
 
   nbvopt::PlanRequest request;
   request.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
   request.motion_time_s = 0.5;
   const nbvopt::PlanResult result =
-      planner.plan(request, *nbvopt::make_solver("grid", {.grid_steps = {0.4, 0.2, 0.0}}));
+      planner.plan(request, {.solver = "grid", .grid_steps = {0.4, 0.2, 0.0}});
 
   // Nothing is known of the map, so every ray of every view ends in an unknown voxel.
   std::printf("%s: gain %.1f\n", nbvopt::to_string(result.status).c_str(), result.view.gain);

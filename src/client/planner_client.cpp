@@ -114,6 +114,7 @@ RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search)
   }
   const v1::PlanReply reply = connection_->call(&v1::Planner::Stub::Plan, message);
   RemotePlan plan{.result = from_message(reply)};
+  plan.result.request = request;
   plan.counting = enum_value<Counting>(reply.counting()).value_or(Counting::per_ray);
   return plan;
 }

@@ -3,27 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/enum_names.hpp"
 #include "core/number.hpp"
 
 namespace nbvopt {
-
-template <>
-inline constexpr auto kEnumNames<PlanStatus> = std::to_array<EnumName<PlanStatus>>({
-    {PlanStatus::not_run, "not_run"},
-    {PlanStatus::optimal_within_tolerance, "optimal_within_tolerance"},
-    {PlanStatus::grid_complete, "grid_complete"},
-    {PlanStatus::evaluation_limit, "evaluation_limit"},
-    {PlanStatus::time_limit, "time_limit"},
-    {PlanStatus::no_gain_in_reach, "no_gain_in_reach"},
-    {PlanStatus::cancelled, "cancelled"},
-});
-template <>
-inline constexpr auto kEnumNames<EvaluationKind> = std::to_array<EnumName<EvaluationKind>>({
-    {EvaluationKind::exact, "exact"},
-    {EvaluationKind::surrogate, "surrogate"},
-});
-
 namespace {
 
 std::string one_decimal(double value) { return format_number(std::round(value * 10.0) / 10.0); }
@@ -54,10 +36,6 @@ std::string joints_at_limits(const std::vector<std::string>& active_bounds) {
 }
 
 }  // namespace
-
-std::string to_string(PlanStatus value) { return std::string(enum_name(value)); }
-
-std::string to_string(EvaluationKind value) { return std::string(enum_name(value)); }
 
 std::string gain_message(const PlanResult& result) {
   const double more = result.view.gain - result.current.gain;

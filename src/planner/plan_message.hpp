@@ -4,7 +4,7 @@
 #include <string>
 
 #include "nbvopt/map/voxel.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 
 namespace nbvopt {
 

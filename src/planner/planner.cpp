@@ -1,9 +1,10 @@
-#include "nbvopt/planner/planner.hpp"
+#include "planner/planner.hpp"
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/number.hpp"
+#include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "planner/panorama_objective.hpp"
 #include "planner/plan_message.hpp"
@@ -60,20 +61,6 @@ std::vector<std::string> active_bounds(const JointBox& box, const Eigen::Vector3
   return names;
 }
 
-/// A slip of the unit lies beyond these.
-void check_drive(double drive_m, double turn_rad) {
-  constexpr double kLongestDrive_m = 100.0;
-  constexpr double kLongestTurn_rad = 100.0;
-  const auto check = [](double value, double most, const std::string& verb, const char* unit) {
-    if (value <= most) return;
-    throw InputError("base_twist: the base would " + verb + " " + format_number(std::round(value)) +
-                     unit + " while the joints move, at most " + format_number(most) + unit +
-                     " can be predicted");
-  };
-  check(drive_m, kLongestDrive_m, "drive", " m");
-  check(turn_rad, kLongestTurn_rad, "turn", " rad");
-}
-
 /// Whether the request's own limits ended the search, and not the solver's.
 bool was_cut_short(SolveStatus status, const StopRule& stop) {
   return status == SolveStatus::time_limit || status == SolveStatus::cancelled ||
@@ -83,20 +70,6 @@ bool was_cut_short(SolveStatus status, const StopRule& stop) {
 
 }  // namespace
 
-PanoramaOptions planning_panorama(Counting counting) {
-  constexpr double kLayerSpacing = 6.0;
-  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,
-          .layer_spacing = kLayerSpacing};
-}
-
-MovingMast moving_mast(const PlanRequest& request, const Mast& mast) {
-  return {mast, request.T_map_base, request.base_twist, request.joints};
-}
-
-Transform T_map_sensor(const PlanRequest& request, const Mast& mast, const JointPosition& joints) {
-  return moving_mast(request, mast).T_map_sensor(joints);
-}
-
 Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
                  std::shared_ptr<const ViewEvaluator> evaluator)
     : mast_(robot.mast),
@@ -105,17 +78,17 @@ Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
       evaluator_(std::move(evaluator)) {}
 
 PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
-  const auto begin = StopRule::Clock::now();
-  check(asked);
   PlanResult result;
-  PlanRequest request = asked;
-  request.joints = mast_.clamped(asked.joints, result.warnings);
-  const MovingMast mast = moving_mast(request, mast_);
-  const KeyBox reachable = reachable_voxels(request);
-  grid_->make_ready(reachable);
-  warn_of_map(reachable, state_at_camera(mast, request.joints), result.warnings);
-  result.box = search_box(request);
+  result.request = usable(asked, result.warnings);
+  const PlanRequest& request = result.request;
+  const Stopwatch filling;
+  const Reach reach = ready_reach(request);
+  result.grid_ms = filling.elapsed_ms();
 
+  const auto begin = StopRule::Clock::now();
+  const MovingMast& mast = reach.mast;
+  warn_of_map(reach.voxels, state_at_camera(*grid_, mast, request.joints), result.warnings);
+  result.box = box_free_of_obstacles(reach, *grid_);
   const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
   const PanoramaObjective surrogate(grid_, sensor_, mast, result.box,
                                     request.surrogate.value_or(planning_panorama(sensor_.counting)),
@@ -124,7 +97,7 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   const SolveResult solved =
       solver.solve(objective, {request.joints.vector(), request.stop, request.seed});
   result.current = objective.view(request.joints.vector());
-  choose(request, mast, objective, solved, result);
+  choose(mast, objective, solved, result);
 
   result.evaluations = objective.evaluations();
   result.surrogate_evaluations = solved.surrogate_evaluations;
@@ -137,9 +110,32 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   return result;
 }
 
-void Planner::choose(const PlanRequest& request, const MovingMast& mast,
-                     const ViewObjective& objective, const SolveResult& solved,
-                     PlanResult& result) const {
+JointBox Planner::reachable_box(const PlanRequest& asked) const {
+  std::vector<std::string> warnings;  // a plan reports them
+  return box_free_of_obstacles(ready_reach(usable(asked, warnings)), *grid_);
+}
+
+void Planner::make_ready(const PlanRequest& asked) const {
+  std::vector<std::string> warnings;  // a plan reports them
+  ready_reach(usable(asked, warnings));
+}
+
+PlanRequest Planner::usable(const PlanRequest& asked, std::vector<std::string>& warnings) const {
+  check(asked);
+  PlanRequest request = asked;
+  request.joints = mast_.clamped(asked.joints, warnings);
+  return request;
+}
+
+Reach Planner::ready_reach(const PlanRequest& request) const {
+  const Reach reach = reach_of(request, mast_, sensor_, grid_->lattice());
+  grid_->make_ready(reach.voxels);
+  return reach;
+}
+
+void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
+                     const SolveResult& solved, PlanResult& result) const {
+  const PlanRequest& request = result.request;
   const auto take = [&](const JointPosition& q) {
     result.joints = q;
     result.view = objective.view(q.vector());
@@ -152,15 +148,11 @@ void Planner::choose(const PlanRequest& request, const MovingMast& mast,
   result.status = plan_status(solved.status);
   if (!was_cut_short(solved.status, request.stop) && result.view.gain < request.min_gain) {
     result.status = PlanStatus::no_gain_in_reach;
-    result.message = no_gain_message(state_at_camera(mast, request.joints), result.view);
+    result.message = no_gain_message(state_at_camera(*grid_, mast, request.joints), result.view);
     take(request.joints);
   } else {
     result.message = gain_message(result);
   }
-}
-
-VoxelState Planner::state_at_camera(const MovingMast& mast, const JointPosition& joints) const {
-  return grid_->state(grid_->lattice().key(mast.T_map_sensor(joints).translation()));
 }
 
 void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
@@ -176,63 +168,6 @@ void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
     warnings.emplace_back("the map carries no uncertainty: every occupied voxel counts with u = " +
                           format_number(sensor_.occupied_uncertainty));
   }
-}
-
-JointBox Planner::search_box(const PlanRequest& request) const {
-  const MovingMast mast = moving_mast(request, mast_);
-  const JointPosition& joints = request.joints;
-  JointBox box = mast_.reachable_box(joints, request.motion_time_s);
-  const auto column_is_occupied = [&](double height_m) {
-    JointPosition q = joints;
-    q.height_m = height_m;
-    return state_at_camera(mast, q) == VoxelState::occupied;
-  };
-  // Half voxels along the way of the optical centre, as far as it moves through no obstacle. One
-  // that starts inside an obstacle may leave it. A moving base lengthens the way.
-  const double way_per_height =
-      1.0 + request.base_twist.speed_m_s() / mast_.options().height_velocity_m_s;
-  const double step_m = 0.5 * grid_->lattice().resolution_m() / way_per_height;
-  const auto reach = [&](double limit_m, double direction) {
-    bool inside = column_is_occupied(joints.height_m);
-    double free_m = joints.height_m;
-    for (int i = 1; direction * (limit_m - free_m) > 0.0; ++i) {
-      const double next_m = joints.height_m + direction * i * step_m;
-      const double height_m = direction * (limit_m - next_m) > 0.0 ? next_m : limit_m;
-      if (column_is_occupied(height_m)) {
-        if (!inside) return free_m;
-      } else {
-        inside = false;
-      }
-      free_m = height_m;
-    }
-    return limit_m;
-  };
-  box.max[2] = reach(box.max[2], 1.0);
-  box.min[2] = reach(box.min[2], -1.0);
-  return box;
-}
-
-KeyBox Planner::reachable_voxels(const PlanRequest& request) const {
-  const MovingMast mast = moving_mast(request, mast_);
-  const JointBox box = mast_.reachable_box(request.joints, request.motion_time_s);
-  const double longest_s = mast.longest_arrival_time_s(box);
-  const double drive_m = request.base_twist.speed_m_s() * longest_s;
-  check_drive(drive_m, std::abs(request.base_twist.wz_rad_s) * longest_s);
-
-  // The drive in pieces: no point of a piece is farther from its middle than half its length.
-  constexpr double kPiece_m = 0.5;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(drive_m / kPiece_m)));
-  const double radius_m = mast_.options().sensor_offset_m.norm() + sensor_.longest_range_m() +
-                          grid_->lattice().resolution_m() + 0.5 * drive_m / pieces;
-  Eigen::AlignedBox3d mast_tops;
-  for (int piece = 0; piece < pieces; ++piece) {
-    const Transform T_map_base = mast.T_map_base(longest_s * (piece + 0.5) / pieces);
-    for (const double height_m : {box.min[2], box.max[2]}) {
-      mast_tops.extend(T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
-    }
-  }
-  return {grid_->lattice().key(mast_tops.min() - Eigen::Vector3d::Constant(radius_m)),
-          grid_->lattice().key(mast_tops.max() + Eigen::Vector3d::Constant(radius_m))};
 }
 
 }  // namespace nbvopt

@@ -7,7 +7,7 @@
 #include "fields/json.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/mast/mast.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 
 namespace nbvopt {

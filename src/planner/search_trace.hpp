@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nbvopt/core/stop.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 
 namespace nbvopt {
 

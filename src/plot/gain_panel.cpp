@@ -20,14 +20,14 @@ struct GainCurve {
 };
 
 GainCurve sample(const PlotInput& input, const std::vector<double>& pans_rad) {
-  const Mast mast(input.robot.mast);
+  const MovingMast mast = moving_mast(input.result.request, input.planner.mast());
   std::vector<Transform> poses;
   for (const double pan_rad : pans_rad) {
     JointPosition joints = input.result.joints;
     joints.pan_rad = pan_rad;
-    poses.push_back(T_map_sensor(input.request, mast, joints));
+    poses.push_back(mast.T_map_sensor(joints));
   }
-  return {pans_rad, evaluate_views(input.evaluator, poses)};
+  return {pans_rad, input.planner.evaluate(poses)};
 }
 
 std::vector<double> evenly_spaced(double min, double max, int count) {
@@ -111,7 +111,7 @@ void draw_mark(Canvas& canvas, const Chart& chart, double pan_rad, double gain,
 
 void draw_marks(Canvas& canvas, const Chart& chart, const PlotInput& input) {
   const PlanResult& result = input.result;
-  draw_mark(canvas, chart, input.request.joints.pan_rad, result.current.gain,
+  draw_mark(canvas, chart, result.request.joints.pan_rad, result.current.gain,
             style::current_stroke(), style::kPaper);
   draw_mark(canvas, chart, result.joints.pan_rad, result.view.gain, style::chosen_stroke(),
             style::kChosen);

@@ -39,7 +39,7 @@ Chart make_chart(const Rectangle& panel, const PlotInput& input) {
           std::max(1.0, *std::max_element(gain.begin(), gain.end()))};
 }
 
-void draw_gains(Canvas& canvas, const Chart& chart, const GainLandscape& landscape) {
+void draw_gains(Canvas& canvas, const Chart& chart, const Landscape& landscape) {
   Raster raster{static_cast<int>(chart.panel.width), static_cast<int>(chart.panel.height), {}};
   const Eigen::Vector2d step_rad =
       (chart.max_rad - chart.min_rad).cwiseQuotient(Eigen::Vector2d(raster.columns, raster.rows));
@@ -117,12 +117,12 @@ void draw_marks(Canvas& canvas, const Chart& chart, const PlotInput& input) {
   }
   mark_path(canvas, path);
   for (const double pan_rad : input.candidate_pans_rad) {
-    mark_candidate(canvas, chart.to_page(pan_rad, input.request.joints.tilt_rad));
+    mark_candidate(canvas, chart.to_page(pan_rad, input.result.request.joints.tilt_rad));
   }
   for (const TracePoint& point : input.result.trace) {
     mark_evaluation(canvas, chart.to_page(point.joints));
   }
-  mark_start(canvas, chart.to_page(input.request.joints));
+  mark_start(canvas, chart.to_page(input.result.request.joints));
   mark_answer(canvas, chart.to_page(input.result.joints));
 }
 

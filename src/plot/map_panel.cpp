@@ -12,8 +12,8 @@ using Polygon = std::vector<Eigen::Vector2d>;
 
 TopView top_view(const Rectangle& panel, const PlotInput& input) {
   constexpr double kMargin_m = 0.5;
-  const double reach_m = input.robot.sensor.range_max_m + kMargin_m;
-  const Eigen::Vector2d centre_m = input.request.T_map_base.translation().head<2>();
+  const double reach_m = input.planner.robot().sensor.range_max_m + kMargin_m;
+  const Eigen::Vector2d centre_m = input.result.request.T_map_base.translation().head<2>();
   return {panel, centre_m - Eigen::Vector2d::Constant(reach_m), 0.5 * panel.width / reach_m};
 }
 
@@ -33,10 +33,11 @@ Polygon view_cone(const TopView& view, SensorOptions sensor, const Transform& T_
 }
 
 void draw_views(Canvas& canvas, const TopView& view, const PlotInput& input) {
-  const Mast mast(input.robot.mast);
+  const PlanRequest& request = input.result.request;
+  const SensorOptions& sensor = input.planner.robot().sensor;
   const Polygon current =
-      view_cone(view, input.robot.sensor, T_map_sensor(input.request, mast, input.request.joints));
-  const Polygon chosen = view_cone(view, input.robot.sensor, input.result.T_map_sensor);
+      view_cone(view, sensor, T_map_sensor(request, input.planner.mast(), request.joints));
+  const Polygon chosen = view_cone(view, sensor, input.result.T_map_sensor);
   canvas.fill(chosen, style::kChosen.with_alpha(0.16));
   canvas.stroke_closed(chosen, {style::kPaper.with_alpha(0.8), 4.0});
   canvas.stroke_closed(chosen, style::chosen_stroke());
@@ -47,20 +48,21 @@ void draw_views(Canvas& canvas, const TopView& view, const PlotInput& input) {
 }  // namespace
 
 MapSlice map_slice(const PlotInput& input) {
-  return map_slice(input.grid.lattice(), input.request.T_map_base.translation().z(),
-                   input.result.T_map_sensor.translation().z(), input.robot.mast.height_max_m);
+  return map_slice(
+      input.planner.grid()->lattice(), input.result.request.T_map_base.translation().z(),
+      input.result.T_map_sensor.translation().z(), input.planner.robot().mast.height_max_m);
 }
 
 void draw_map(Canvas& canvas, const Rectangle& panel, const PlotInput& input,
               const MapSlice& slice) {
   const TopView view = top_view(panel, input);
   canvas.clipped(panel, [&] {
-    draw_voxels(canvas, view, input.grid, slice);
+    draw_voxels(canvas, view, *input.planner.grid(), slice);
     draw_views(canvas, view, input);
-    if (!input.request.base_twist.is_zero()) {
+    if (!input.result.request.base_twist.is_zero()) {
       draw_robot(canvas, view, input.result.T_map_base, style::kChosen);
     }
-    draw_robot(canvas, view, input.request.T_map_base, style::kCurrent);
+    draw_robot(canvas, view, input.result.request.T_map_base, style::kCurrent);
     draw_scale_bar(canvas, view);
   });
   draw_axes(canvas, view);

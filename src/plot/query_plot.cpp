@@ -32,8 +32,8 @@ void draw_title(Canvas& canvas, const PlotInput& input, const MapSlice& slice) {
   canvas.text({24.0, 42.0}, "Where should the camera look next?", style::title());
   canvas.text({24.0, 63.0},
               result.solver + " solver, " + std::to_string(result.evaluations) +
-                  " views judged by the " + input.evaluator.name() + " gain (" +
-                  to_string(input.robot.sensor.counting) + ")" + surrogate + " in " +
+                  " views judged by the " + input.planner.evaluator() + " gain (" +
+                  to_string(input.planner.robot().sensor.counting) + ")" + surrogate + " in " +
                   decimal(result.search_time_ms, 1) + " ms",
               style::note());
   canvas.text({kMapPanel.x, kMapPanel.y - 8.0}, "Map from above", style::heading());
@@ -71,7 +71,7 @@ void draw_table(Canvas& canvas, const PlotInput& input) {
   draw_table_row(canvas, kTop, "View", {"pan (rad)", "tilt (rad)", "height (m)", "gain"}, true);
   canvas.fill(Rectangle{kRight, kTop + 8.0, kGainPanel.right() - kRight, 1.0}, style::kMutedInk);
   draw_key_line(canvas, kRight, kTop + 24.0, style::current_stroke());
-  draw_table_row(canvas, kTop + 28.0, "current", view_cells(input.request.joints, result.current),
+  draw_table_row(canvas, kTop + 28.0, "current", view_cells(result.request.joints, result.current),
                  false);
   draw_key_line(canvas, kRight, kTop + 46.0, style::chosen_stroke());
   draw_table_row(canvas, kTop + 50.0, "chosen", view_cells(result.joints, result.view), false);
@@ -96,7 +96,7 @@ void draw_legend(Canvas& canvas, const PlotInput& input) {
               "gain from badly seen voxels");
   draw_swatch(canvas, kRight, kTop + 24.0, style::kFree, "free");
   draw_swatch(canvas, kSecondColumn, kTop + 24.0, style::kUnknown, "unknown");
-  if (input.grid.carries_uncertainty()) {
+  if (input.planner.grid()->carries_uncertainty()) {
     draw_uncertainty_ramp(canvas, {kRight, kTop + 48.0});
   } else {
     draw_swatch(canvas, kRight, kTop + 48.0, style::kOccupied, "occupied");

@@ -6,22 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/map/voxel_grid.hpp"
-#include "nbvopt/planner/planner.hpp"
-#include "nbvopt/planner/robot.hpp"
-#include "planner/landscape.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 
 namespace nbvopt {
 
-/// A question with its answer, and what they stand on. `result` is one of Planner::plan().
+/// An answer, and what it stands on.
 struct PlotInput {
-  const VoxelGrid& grid;
-  const ViewEvaluator& evaluator;  ///< judges the pan angles of the gain chart
-  const Robot& robot;
-  const PlanRequest& request;
-  const PlanResult& result;  ///< with its trace
-  const GainLandscape& landscape;
+  const ViewPlanner& planner;
+  const PlanResult& result;                     ///< the planner's, with its trace
+  const Landscape& landscape;                   ///< around it
   std::vector<double> candidate_pans_rad = {};  ///< the pans of the paper's grid
 };
 

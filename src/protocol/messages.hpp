@@ -8,7 +8,7 @@
 
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/solver/search.hpp"
 #include "nbvopt/v1/planner.pb.h"
 

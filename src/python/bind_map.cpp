@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
+#include "nbvopt/map/shared_map.hpp"
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/shared_map.hpp"
 
 namespace nbvopt::python {
-
-SharedMap::SharedMap(const std::filesystem::path& path)
-    : map_(read_map(path)), grid_(VoxelGrid::lazy(map_)) {}
-
 namespace {
 
 /// The voxels of a map at one height.
@@ -47,7 +44,8 @@ MapSlice slice(const SharedMap& shared, double z_m) {
   const std::optional<KeyBox> known = shared.map().known_box();
   if (!known) throw InputError("the map is empty: there is nothing to slice");
   const std::uint16_t z = lattice.key({0.0, 0.0, z_m}).z;
-  const VoxelGrid& grid = *shared.grid();
+  const std::shared_ptr<const VoxelGrid> shared_grid = shared.grid();
+  const VoxelGrid& grid = *shared_grid;
   grid.make_ready({{known->min.x, known->min.y, z}, {known->max.x, known->max.y, z}});
 
   const int rows = known->max.y - known->min.y + 1;
@@ -97,8 +95,10 @@ void bind_map(py::module_& module) {
       "A map file: .bt, or .ot of type OcTree, ColorOcTree or UncertaintyOcTree.\n\n"
       "It never changes, and all that is made of it shares one voxel grid, which fills as it is "
       "used.")
-      .def(py::init<const std::filesystem::path&>(), py::arg("path"),
-           py::call_guard<py::gil_scoped_release>(),
+      .def(py::init([](const std::filesystem::path& path) {
+             return std::make_shared<SharedMap>(read_map(path));
+           }),
+           py::arg("path"), py::call_guard<py::gil_scoped_release>(),
            "Reads a map. ValueError: the file is missing, damaged or of another kind.")
       .def_property_readonly(
           "resolution_m", [](const SharedMap& shared) { return shared.map().resolution_m(); },

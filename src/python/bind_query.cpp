@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,12 +9,10 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/search.hpp"
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/shared_map.hpp"
 
 namespace nbvopt::python {
 namespace {
@@ -47,8 +44,7 @@ std::optional<StopRule::Clock::time_point> deadline_from(
     throw InputError("time_limit_ms is " + format_number(*time_limit_ms) +
                      ", it must be greater than 0 and at most " + format_number(kLongestMs));
   }
-  return StopRule::Clock::now() + std::chrono::duration_cast<StopRule::Clock::duration>(
-                                      std::chrono::duration<double, std::milli>(*time_limit_ms));
+  return StopRule::within(*time_limit_ms).deadline;
 }
 
 BaseTwist twist_from(const py::object& base_twist) {
@@ -81,11 +77,7 @@ PlanResult query(const std::shared_ptr<SharedMap>& map, const Robot& robot, cons
                                   non_negative(step_height_m, "step_height_m")}});
 
   const py::gil_scoped_release release;
-  Robot as_evaluated = robot;
-  as_evaluated.sensor = evaluator_sensor(evaluator, robot.sensor);
-  const Planner planner(as_evaluated, map->grid(),
-                        make_evaluator(evaluator, map->map(), map->grid(), as_evaluated.sensor));
-  return planner.plan(request, *search);
+  return ViewPlanner(map, robot, evaluator).plan(request, *search);
 }
 
 /// Every evaluation of the search, an array a field.
@@ -157,7 +149,10 @@ void bind_result(py::module_& module) {
       .def_readonly("evaluations", &PlanResult::evaluations, "Of the evaluator.")
       .def_readonly("surrogate_evaluations", &PlanResult::surrogate_evaluations)
       .def_readonly("search_time_ms", &PlanResult::search_time_ms,
-                    "Computing time, that of filling the grid included.")
+                    "Computing time of the search, without grid_ms.")
+      .def_readonly("grid_ms", &PlanResult::grid_ms,
+                    "Computing time of reading the voxels in reach from the map, next to nothing "
+                    "where they were read before.")
       .def_readonly("solver", &PlanResult::solver)
       .def_readonly("seed", &PlanResult::seed)
       .def_readonly("warnings", &PlanResult::warnings)

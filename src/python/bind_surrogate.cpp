@@ -5,10 +5,9 @@
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/panorama.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/shared_map.hpp"
 
 namespace nbvopt::python {
 namespace {
@@ -16,11 +15,11 @@ namespace {
 /// The panorama over what a request's joints can reach, with the map that it looks at.
 class RequestPanorama {
  public:
-  RequestPanorama(std::shared_ptr<const SharedMap> map, const Robot& robot,
-                  const PlanRequest& request, const PanoramaOptions& options)
-      : map_(std::move(map)), box_(search_box(*map_, robot, request)) {
-    panorama_ = std::make_unique<Panorama>(map_->grid(), robot.sensor,
-                                           moving_mast(request, Mast(robot.mast)), box_, options);
+  RequestPanorama(std::shared_ptr<SharedMap> map, const Robot& robot, const PlanRequest& request,
+                  const PanoramaOptions& options)
+      : planner_(std::move(map), robot), box_(planner_.reachable_box(request)) {
+    panorama_ = std::make_unique<Panorama>(planner_.grid(), robot.sensor,
+                                           moving_mast(request, planner_.mast()), box_, options);
   }
 
   const JointBox& box() const { return box_; }
@@ -38,14 +37,7 @@ class RequestPanorama {
   }
 
  private:
-  static JointBox search_box(const SharedMap& map, const Robot& robot, const PlanRequest& request) {
-    const Planner planner(robot, map.grid(),
-                          make_exact_evaluator(map.grid(), DepthCamera(robot.sensor)));
-    map.grid()->make_ready(planner.reachable_voxels(request));
-    return planner.search_box(request);
-  }
-
-  std::shared_ptr<const SharedMap> map_;
+  ViewPlanner planner_;
   JointBox box_;
   std::unique_ptr<const Panorama> panorama_;
 };

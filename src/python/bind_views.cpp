@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/shared_map.hpp"
 
 namespace nbvopt::python {
 namespace {
@@ -18,26 +16,23 @@ namespace {
 class MapEvaluator {
  public:
   MapEvaluator(std::shared_ptr<SharedMap> map, const Robot& robot, const std::string& name)
-      : map_(std::move(map)),
-        evaluator_(make_evaluator(name, map_->map(), map_->grid(),
-                                  evaluator_sensor(name, robot.sensor))) {}
+      : planner_(std::move(map), robot, name) {}
 
   /// The gains of the views in their order; other Python threads run meanwhile.
   std::vector<ViewGain> evaluate(const py::object& poses) const {
     const std::vector<Transform> poses_T_map_sensor = poses_from(poses);
     const py::gil_scoped_release release;
     for (std::size_t i = 0; i < poses_T_map_sensor.size(); ++i) {
-      if (!map_->map().lattice().contains(poses_T_map_sensor[i].translation())) {
+      if (!planner_.grid()->lattice().contains(poses_T_map_sensor[i].translation())) {
         throw InputError("poses[" + std::to_string(i) +
                          "]: the camera is off the map's lattice of 65536 voxels an axis");
       }
     }
-    return evaluate_views(*evaluator_, poses_T_map_sensor);
+    return planner_.evaluate(poses_T_map_sensor);
   }
 
  private:
-  std::shared_ptr<const SharedMap> map_;
-  std::unique_ptr<const ViewEvaluator> evaluator_;
+  ViewPlanner planner_;
 };
 
 py::array_t<double> gains(const MapEvaluator& evaluator, const py::object& poses) {

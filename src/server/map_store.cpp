@@ -15,13 +15,13 @@ MapStore::MapStore(const Robot& robot, const ServerLimits& limits, UncertaintyMa
   publish(VoxelGrid::whole(map_, version));
 }
 
-std::shared_ptr<const PublishedMap> MapStore::published() const {
+std::shared_ptr<const ViewPlanner> MapStore::published() const {
   const std::scoped_lock lock(published_mutex_);
   return published_;
 }
 
 void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
-  auto published = std::make_shared<const PublishedMap>(robot_, grid);
+  auto published = std::make_shared<const ViewPlanner>(grid, robot_);
   grid_ = std::move(grid);
   const std::scoped_lock lock(published_mutex_);
   published_.swap(published);  // the old version, if nobody reads it, goes after the lock
@@ -66,7 +66,7 @@ std::uint64_t MapStore::replace(UncertaintyMap map) {
 }
 
 std::uint64_t MapStore::clear(std::optional<double> resolution_m) {
-  const double same_m = published()->grid().lattice().resolution_m();
+  const double same_m = published()->grid()->lattice().resolution_m();
   return replace(UncertaintyMap(resolution_m.value_or(same_m)));
 }
 

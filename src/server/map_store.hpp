@@ -11,8 +11,8 @@
 
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "server/limits.hpp"
-#include "server/published_map.hpp"
 
 namespace nbvopt {
 
@@ -38,8 +38,8 @@ class MapStore {
 
   const Robot& robot() const { return robot_; }
 
-  /// The newest version.
-  std::shared_ptr<const PublishedMap> published() const;
+  /// A planner on the newest version.
+  std::shared_ptr<const ViewPlanner> published() const;
 
   struct Insertion {
     InsertResult result;
@@ -85,7 +85,7 @@ class MapStore {
   mutable std::map<MapFormat, std::weak_ptr<const MapBytes>> bytes_;
 
   mutable std::mutex published_mutex_;  ///< held for the copy of one pointer
-  std::shared_ptr<const PublishedMap> published_;
+  std::shared_ptr<const ViewPlanner> published_;
 };
 
 }  // namespace nbvopt

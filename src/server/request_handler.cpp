@@ -21,8 +21,7 @@ namespace {
 using Clock = StopRule::Clock;
 
 void stop_at_latest(StopRule& stop, Clock::time_point received, double limit_ms) {
-  const auto deadline = received + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double, std::milli>(limit_ms));
+  const auto deadline = *StopRule::within(limit_ms, received).deadline;
   stop.deadline = std::min(stop.deadline.value_or(deadline), deadline);
 }
 
@@ -68,7 +67,7 @@ void RequestHandler::check_size(const google::protobuf::Message& message) const 
 v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
                                    const StopRule& stop) const {
   check_size(message);
-  const std::shared_ptr<const PublishedMap> map = store_.published();
+  const std::shared_ptr<const ViewPlanner> planner = store_.published();
   PlanRequest request = from_message(message);
   const std::unique_ptr<Solver> solver = make_solver(from_message(message.search()));
   request.stop.cancel = stop.cancel;
@@ -79,7 +78,7 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
     const double limit_ms = std::min(message.time_limit_ms(), limits_.max_compute_ms);
     stop_at_latest(request.stop, received, limit_ms);
   }
-  v1::PlanReply reply = to_message(map->planner().plan(request, *solver));
+  v1::PlanReply reply = to_message(planner->plan(request, *solver));
   reply.set_counting(to_string(store_.robot().sensor.counting));
   if (message.has_request_id()) reply.set_request_id(message.request_id());
   return reply;
@@ -93,19 +92,18 @@ v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
                      " views, the limit is " + std::to_string(limits_.max_views) +
                      " (--max-views)");
   }
-  const std::shared_ptr<const PublishedMap> map = store_.published();
-  const Mast mast(store_.robot().mast);
+  const std::shared_ptr<const ViewPlanner> planner = store_.published();
   std::vector<Transform> poses_T_map_sensor;
   for (int i = 0; i < message.views_size(); ++i) {
     poses_T_map_sensor.push_back(
-        from_message(message.views(i), mast, "views[" + std::to_string(i) + "]"));
+        from_message(message.views(i), planner->mast(), "views[" + std::to_string(i) + "]"));
   }
   // One thread: the other ones serve other calls.
   const std::vector<ViewGain> gains =
-      evaluate_views(map->evaluator(), poses_T_map_sensor, 1, limited(stop, received));
+      planner->evaluate(poses_T_map_sensor, 1, limited(stop, received));
 
   v1::EvaluateReply reply;
-  reply.set_map_version(map->version());
+  reply.set_map_version(planner->map_version());
   for (const ViewGain& gain : gains) {
     if (std::isnan(gain.gain)) {
       throw stop.cancel.is_cancelled()
@@ -176,9 +174,9 @@ v1::GetStatusReply RequestHandler::status(const v1::GetStatusRequest& message) c
   reply.set_version(version());
   reply.set_versions(server_version_report());
   reply.set_run_id(run_id_);
-  const std::shared_ptr<const PublishedMap> map = store_.published();
-  reply.set_map_version(map->version());
-  reply.set_resolution_m(map->grid().lattice().resolution_m());
+  const std::shared_ptr<const VoxelGrid> grid = store_.published()->grid();
+  reply.set_map_version(grid->version());
+  reply.set_resolution_m(grid->lattice().resolution_m());
   if (snapshots_ != nullptr) {
     const SnapshotKeeper::State state = snapshots_->state();
     reply.set_durable_version(state.durable_version);

@@ -151,7 +151,7 @@ struct Server::Parts {
 
 Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(options)) {
   spdlog::info("event=listening address=\"{}\" version={} map_version={}", address(), version(),
-               parts_->store->published()->version());
+               parts_->store->published()->map_version());
   if (!parts_->snapshots) {
     spdlog::warn(
         "event=no_snapshot note=\"the map is lost when the server ends, give --snapshot\"");
@@ -170,7 +170,7 @@ void Server::stop() {
   parts_->server->Shutdown(std::chrono::system_clock::now() + kGrace);
   if (parts_->snapshots) parts_->snapshots->save();
   spdlog::info("event=stopped map_version={} durable_version={}",
-               parts_->store->published()->version(), parts_->handler->durable_version());
+               parts_->store->published()->map_version(), parts_->handler->durable_version());
 }
 
 }  // namespace nbvopt

@@ -32,7 +32,7 @@ SnapshotKeeper::State SnapshotKeeper::state() const {
 void SnapshotKeeper::save() {
   const std::scoped_lock one_writer(writing_);
   std::error_code ignored;
-  if (store_.published()->version() == state().durable_version &&
+  if (store_.published()->map_version() == state().durable_version &&
       std::filesystem::exists(path_, ignored)) {
     return;
   }

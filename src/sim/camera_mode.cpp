@@ -14,7 +14,7 @@ namespace {
 class StaticCamera : public CameraMode {
  public:
   bool plans() const override { return false; }
-  NextView next_view(const Planner& /*planner*/, const PlanRequest& request) const override {
+  NextView next_view(const ViewPlanner& /*planner*/, const PlanRequest& request) const override {
     return {.joints = request.joints};
   }
 };
@@ -23,7 +23,7 @@ class SearchingCamera : public CameraMode {
  public:
   explicit SearchingCamera(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) {}
 
-  NextView next_view(const Planner& planner, const PlanRequest& request) const override {
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
     const PlanResult result = planner.plan(request, *solver_);
     return {.joints = result.joints, .predicted_gain = result.view.gain};
   }
@@ -34,8 +34,8 @@ class SearchingCamera : public CameraMode {
 
 class RandomCamera : public CameraMode {
  public:
-  NextView next_view(const Planner& planner, const PlanRequest& request) const override {
-    const JointBox box = planner.search_box(request);
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
+    const JointBox box = planner.reachable_box(request);
     std::seed_seq seeds{request.seed, request.seed >> 32};
     std::mt19937_64 random(seeds);
     Eigen::Vector3d q;

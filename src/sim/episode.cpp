@@ -167,10 +167,7 @@ class EpisodeRun {
   NextView plan(Capture& capture) const {
     if (!grid_) return {.joints = capture.joints};
     return timed(capture.plan_ms, [&] {
-      const PlanRequest asked = request(capture);
-      const Planner planner(options_.robot, grid_, make_exact_evaluator(grid_, planning_camera_));
-      grid_->make_ready(planner.reachable_voxels(asked));
-      return mode_.next_view(planner, asked);
+      return mode_.next_view(ViewPlanner(grid_, options_.robot), request(capture));
     });
   }
 

@@ -43,21 +43,18 @@ struct Candidate {
 
 class GainOverBox {
  public:
-  GainOverBox(const ViewEvaluator& evaluator, const MovingMast& mast, const JointBox& box)
-      : evaluator_(evaluator), mast_(mast), box_(box) {}
+  GainOverBox(const GainOfJoints& gain, const JointBox& box) : gain_(gain), box_(box) {}
 
   Candidate at(const Vector& q) {
     ++evaluations_;
     const Vector inside = q.cwiseMax(box_.min).cwiseMin(box_.max);
-    const Transform T_map_sensor = mast_.T_map_sensor(JointPosition::from(inside));
-    return {inside, evaluator_.evaluate(T_map_sensor).gain};
+    return {inside, gain_(JointPosition::from(inside))};
   }
   const JointBox& box() const { return box_; }
   std::int64_t evaluations() const { return evaluations_; }
 
  private:
-  const ViewEvaluator& evaluator_;
-  const MovingMast& mast_;
+  const GainOfJoints& gain_;
   const JointBox& box_;
   std::int64_t evaluations_ = 0;
 };
@@ -181,9 +178,8 @@ bool agree(double a, double b) { return std::abs(a - b) <= kReferenceAgreement *
 
 }  // namespace
 
-Reference find_reference(const ViewEvaluator& evaluator, const MovingMast& mast,
-                         const JointBox& box) {
-  GainOverBox gain(evaluator, mast, box);
+Reference find_reference(const GainOfJoints& gain_of, const JointBox& box) {
+  GainOverBox gain(gain_of, box);
   Reference reference;
   Candidate best;
   for (int level = 0; level < kMostLevels && !reference.has_agreed; ++level) {

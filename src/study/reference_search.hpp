@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-#include "nbvopt/gain/view_evaluator.hpp"
-#include "nbvopt/mast/moving_mast.hpp"
+#include "nbvopt/mast/mast.hpp"
 
 namespace nbvopt::study {
 
@@ -28,12 +28,13 @@ struct Reference {
 /// to 0.15 % within 1e-4 rad.
 inline constexpr double kReferenceAgreement = 1e-3;
 
-/// Maximises the exact gain over the box: each level evaluates every point of a lattice over the
+using GainOfJoints = std::function<double(const JointPosition&)>;
+
+/// Maximises a gain over the box: each level evaluates every point of a lattice over the
 /// box, its faces included, climbs from its highest summits by ever smaller steps, and then by
 /// steps drawn around the best four. Levels, each with twice the square root of two as many points,
 /// follow one another until one agrees with the best before, or five have been searched.
 /// Deterministic.
-Reference find_reference(const ViewEvaluator& evaluator, const MovingMast& mast,
-                         const JointBox& box);
+Reference find_reference(const GainOfJoints& gain_of, const JointBox& box);
 
 }  // namespace nbvopt::study

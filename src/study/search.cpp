@@ -8,7 +8,7 @@
 #include "fields/field_table.hpp"
 #include "fields/keys.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/solver/registry.hpp"
 
 namespace nbvopt::study {

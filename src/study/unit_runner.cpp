@@ -8,9 +8,7 @@
 
 #include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/gain/named_evaluator.hpp"
-#include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "sensor/sensor_names.hpp"
 #include "study/reference_search.hpp"
 #include "study/spec/start_sampling.hpp"
@@ -36,10 +34,14 @@ PlanRequest request_of(const WorkUnit& unit) {
   return request;
 }
 
+/// The gain once the request's joints have arrived at these.
+double gain_at(const ViewPlanner& planner, const PlanRequest& request, const JointPosition& q) {
+  return planner.evaluate(T_map_sensor(request, planner.mast(), q)).gain;
+}
+
 /// The steps of the best exact gain. What was searched on another evaluator is judged again.
-Json progress_json(const std::vector<TracePoint>& trace, const ViewEvaluator& exact,
-                   const PlanRequest& request, const Mast& mast, bool is_exact,
-                   std::vector<double>& times_ms) {
+Json progress_json(const std::vector<TracePoint>& trace, const ViewPlanner& exact,
+                   const PlanRequest& request, bool is_exact, std::vector<double>& times_ms) {
   std::vector<std::size_t> evaluations;
   std::vector<std::size_t> exact_evaluations;
   std::vector<double> gains;
@@ -51,8 +53,7 @@ Json progress_json(const std::vector<TracePoint>& trace, const ViewEvaluator& ex
     ++exact_count;
     if (!(point.gain > best)) continue;
     best = point.gain;
-    const double gain =
-        is_exact ? point.gain : exact.evaluate(T_map_sensor(request, mast, point.joints)).gain;
+    const double gain = is_exact ? point.gain : gain_at(exact, request, point.joints);
     if (!gains.empty() && gain <= gains.back()) continue;
     evaluations.push_back(i + 1);
     exact_evaluations.push_back(exact_count);
@@ -72,8 +73,7 @@ class UnitRunner::Scene {
         robot_file_(unit.robot),
         map_digest_(experiment::file_digest(unit.map)),
         robot_(read_robot(unit.robot)),
-        map_(read_map(unit.map)),
-        grid_(VoxelGrid::lazy(map_)) {}
+        map_(std::make_shared<SharedMap>(read_map(unit.map))) {}
 
   bool is_of(const WorkUnit& unit) const {
     return unit.map == map_file_ && unit.map_digest == map_digest_ && unit.robot == robot_file_;
@@ -83,41 +83,25 @@ class UnitRunner::Scene {
     throw InputError(unit.map.string() + " has changed since the study began");
   }
 
-  const VoxelGrid& grid() const { return *grid_; }
-  Mast mast() const { return Mast(robot_.mast); }
-
-  /// The exact gain, as this mode counts it.
-  const ViewEvaluator& exact(UncertaintyMode mode) { return *judge(mode, kExact).evaluator; }
-  const Planner& planner(UncertaintyMode mode, const std::string& evaluator) {
-    return judge(mode, evaluator).planner;
+  const ViewPlanner& planner(UncertaintyMode mode, const std::string& evaluator) {
+    const auto key = std::pair(mode, evaluator);
+    const auto known = planners_.find(key);
+    if (known != planners_.end()) return known->second;
+    Robot robot = robot_;
+    robot.sensor.uncertainty_mode = mode;
+    return planners_.emplace(key, ViewPlanner(map_, robot, evaluator)).first->second;
   }
+  /// Judges by the exact gain, as this mode counts it.
+  const ViewPlanner& exact(UncertaintyMode mode) { return planner(mode, kExact); }
   Counting counting() const { return robot_.sensor.counting; }
 
  private:
-  struct Judge {
-    std::shared_ptr<const ViewEvaluator> evaluator;
-    Planner planner;
-  };
-
-  const Judge& judge(UncertaintyMode mode, const std::string& evaluator) {
-    const auto key = std::pair(mode, evaluator);
-    const auto known = judges_.find(key);
-    if (known != judges_.end()) return known->second;
-    Robot robot = robot_;
-    robot.sensor.uncertainty_mode = mode;
-    robot.sensor = evaluator_sensor(evaluator, robot.sensor);
-    const std::shared_ptr<const ViewEvaluator> made =
-        make_evaluator(evaluator, map_, grid_, robot.sensor);
-    return judges_.emplace(key, Judge{made, Planner(robot, grid_, made)}).first->second;
-  }
-
   std::filesystem::path map_file_;
   std::filesystem::path robot_file_;
   std::string map_digest_;
   Robot robot_;
-  UncertaintyMap map_;
-  std::shared_ptr<const VoxelGrid> grid_;
-  std::map<std::pair<UncertaintyMode, std::string>, Judge> judges_;
+  std::shared_ptr<SharedMap> map_;  ///< of all planners
+  std::map<std::pair<UncertaintyMode, std::string>, ViewPlanner> planners_;
 };
 
 UnitRunner::UnitRunner(SolverFactory make) : make_(std::move(make)) {}
@@ -135,50 +119,45 @@ Json UnitRunner::run(const WorkUnit& unit) {
 Json UnitRunner::run_query(const WorkUnit& unit) {
   const bool is_exact = unit.search.evaluator == kExact;
   const auto solver = make_(unit.search.search);
-  const Planner& planner = scene_->planner(unit.mode, unit.search.evaluator);
+  const ViewPlanner& planner = scene_->planner(unit.mode, unit.search.evaluator);
   PlanRequest request = request_of(unit);
   request.surrogate = surrogate_options(unit.search, scene_->counting());
   // Whoever is first at a place would pay for its bricks otherwise.
-  scene_->grid().make_ready(planner.reachable_voxels(request));
+  planner.make_ready(request);
   if (unit.budget.time_limit_ms > 0.0) {
-    request.stop.deadline =
-        StopRule::Clock::now() +
-        std::chrono::duration_cast<StopRule::Clock::duration>(
-            std::chrono::duration<double, std::milli>(unit.budget.time_limit_ms));
+    request.stop.deadline = StopRule::within(unit.budget.time_limit_ms).deadline;
   }
   const PlanResult result = planner.plan(request, *solver);
 
-  const Mast mast = scene_->mast();
-  const ViewEvaluator& exact = scene_->exact(unit.mode);
-  const auto exact_gain = [&](const JointPosition& q) {
-    return exact.evaluate(T_map_sensor(request, mast, q)).gain;
-  };
+  const ViewPlanner& exact = scene_->exact(unit.mode);
   std::vector<double> progress_ms;
-  const Json progress = progress_json(result.trace, exact, request, mast, is_exact, progress_ms);
+  const Json progress = progress_json(result.trace, exact, request, is_exact, progress_ms);
   Json gain_by_mode = Json::object();
   for (const auto& [mode, name] : kEnumNames<UncertaintyMode>) {
     gain_by_mode[std::string(name)] = scene_->exact(mode).evaluate(result.T_map_sensor).gain;
   }
-  return {{"status", to_string(result.status)},
-          {"joints", joints_json(result.joints)},
-          {"gain", is_exact ? result.view.gain : exact_gain(result.joints)},
-          {"current_gain", is_exact ? result.current.gain : exact_gain(request.joints)},
-          {"gain_by_mode", gain_by_mode},
-          {"evaluations", result.evaluations},
-          {"surrogate_evaluations", result.surrogate_evaluations},
-          {"move_time_s", result.move_time_s},
-          {"progress", progress},
-          {"times", {{"search_ms", result.search_time_ms}, {"progress_ms", progress_ms}}}};
+  return {
+      {"status", to_string(result.status)},
+      {"joints", joints_json(result.joints)},
+      {"gain", is_exact ? result.view.gain : gain_at(exact, request, result.joints)},
+      {"current_gain", is_exact ? result.current.gain : gain_at(exact, request, request.joints)},
+      {"gain_by_mode", gain_by_mode},
+      {"evaluations", result.evaluations},
+      {"surrogate_evaluations", result.surrogate_evaluations},
+      {"move_time_s", result.move_time_s},
+      {"progress", progress},
+      {"times", {{"search_ms", result.search_time_ms}, {"progress_ms", progress_ms}}}};
 }
 
 Json UnitRunner::run_reference(const WorkUnit& unit) {
   const auto begin = StopRule::Clock::now();
-  const Planner& planner = scene_->planner(unit.mode, kExact);
+  const ViewPlanner& planner = scene_->planner(unit.mode, kExact);
   const PlanRequest request = request_of(unit);
-  scene_->grid().make_ready(planner.reachable_voxels(request));
-  const Mast mast = scene_->mast();
-  const Reference reference = find_reference(scene_->exact(unit.mode), moving_mast(request, mast),
-                                             planner.search_box(request));
+  const MovingMast mast = moving_mast(request, planner.mast());
+  const auto gain = [&](const JointPosition& q) {
+    return planner.evaluate(mast.T_map_sensor(q)).gain;
+  };
+  const Reference reference = find_reference(gain, planner.reachable_box(request));
   Json levels = Json::array();
   for (const ReferenceLevel& level : reference.levels) {
     levels.push_back({{"steps", {level.steps[0], level.steps[1], level.steps[2]}},

@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     call_method(handler, left[0], left.subspan(kHead, length));
     left = left.subspan(kHead + length);
   }
-  const ViewGain gain = store.published()->evaluator().evaluate(Transform::Identity());
+  const ViewGain gain = store.published()->evaluate(Transform::Identity());
   if (!(gain.gain >= 0.0)) std::abort();
   return 0;
 }

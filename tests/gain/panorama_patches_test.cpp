@@ -7,7 +7,7 @@
 #include "gain/panorama_world.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "planner/panorama_objective.hpp"
 #include "support/error_message.hpp"
 #include "support/paths.hpp"

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <iostream>
 #include <limits>
-#include <optional>
 
-#include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "support/oracle.hpp"
 #include "support/paths.hpp"
@@ -36,10 +34,9 @@ class Optima : public ::testing::TestWithParam<KnownOptima> {
     NBVOPT_REQUIRE_ORACLE(file);
     oracle_ = test::read_oracle(file);
     robot_.sensor = test::oracle_sensor(oracle_);
-    map_.emplace(read_map(test::oracle_map_file(oracle_)));
-    grid_ = VoxelGrid::lazy(*map_);
-    exact_ = make_exact_evaluator(grid_, DepthCamera(robot_.sensor));
   }
+
+  ViewPlanner planner() const { return {read_map(test::oracle_map_file(oracle_)), robot_}; }
 
   static PlanRequest request_of(const nlohmann::json& known) {
     PlanRequest request;
@@ -51,16 +48,12 @@ class Optima : public ::testing::TestWithParam<KnownOptima> {
 
   nlohmann::json oracle_;
   Robot robot_;
-  std::optional<UncertaintyMap> map_;
-  std::shared_ptr<const VoxelGrid> grid_;
-  std::shared_ptr<const ViewEvaluator> exact_;
 };
 
 TEST_P(Optima, AreReproduced) {
-  const Planner planner(robot_, grid_, exact_);
+  const ViewPlanner planner = this->planner();
   const auto pan_grid =
       make_solver("grid", {.grid_steps = {oracle_.at("pan_grid_step_rad"), 0.0, 0.0}});
-  const Mast mast(robot_.mast);
   for (const nlohmann::json& known : oracle_.at("cases")) {
     const PlanRequest request = request_of(known);
     const PlanResult result = planner.plan(request, *pan_grid);
@@ -70,7 +63,7 @@ TEST_P(Optima, AreReproduced) {
     EXPECT_NEAR(result.current.gain, current, search_tolerance(current)) << known;
     EXPECT_NEAR(result.view.gain, best_of_grid, search_tolerance(best_of_grid)) << known;
     const JointPosition best_joints = test::oracle_joints(known.at("best"));
-    EXPECT_NEAR(exact_->evaluate(T_map_sensor(request, mast, best_joints)).gain, best,
+    EXPECT_NEAR(planner.evaluate(T_map_sensor(request, planner.mast(), best_joints)).gain, best,
                 search_tolerance(best))
         << known;
     EXPECT_TRUE(result.box.contains(best_joints.vector()) ||
@@ -82,12 +75,11 @@ TEST_P(Optima, AreReproduced) {
 }
 
 TEST_P(Optima, AreFoundByAuto) {
-  const Planner planner(robot_, grid_, exact_);
-  const auto search = make_solver("auto", {});
+  const ViewPlanner planner = this->planner();
   double ratio_sum = 0.0;
   double worst = std::numeric_limits<double>::infinity();
   for (const nlohmann::json& known : oracle_.at("cases")) {
-    const PlanResult result = planner.plan(request_of(known), *search);
+    const PlanResult result = planner.plan(request_of(known));
     const double ratio = result.view.gain / known.at("best_gain").get<double>();
     EXPECT_GE(ratio, GetParam().worst_share) << known;
     ratio_sum += ratio;

@@ -3,12 +3,11 @@
 
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "nbvopt/map/map_file.hpp"
-#include "nbvopt/map/scan.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "office_scene.hpp"
 #include "simulated_scan.hpp"
@@ -33,7 +32,9 @@ Robot coarse_robot() {
 class Explorer {
  public:
   Explorer(const VoxelGrid& office, UncertaintyMap known, const Transform& T_map_base)
-      : office_(office), map_(std::move(known)) {
+      : office_(office),
+        map_(std::make_shared<SharedMap>(std::move(known))),
+        planner_(map_, coarse_robot()) {
     request_.T_map_base = T_map_base;
     request_.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
     request_.motion_time_s = 0.5;
@@ -44,27 +45,21 @@ class Explorer {
   /// camera stays.
   double explore(const Solver* solver) {
     for (int round = 0; round < kRounds; ++round) {
-      if (solver != nullptr) move(*solver);
+      if (solver != nullptr) request_.joints = planner_.plan(request_, *solver).joints;
       look();
     }
-    return map_.counts().information;
+    return map_->map().counts().information;
   }
 
  private:
-  void move(const Solver& solver) {
-    const auto grid = VoxelGrid::whole(map_);
-    const Planner planner(robot_, grid, make_exact_evaluator(grid, DepthCamera(robot_.sensor)));
-    request_.joints = planner.plan(request_, solver).joints;
-  }
-
   void look() {
-    const Transform pose = T_map_sensor(request_, Mast(robot_.mast), request_.joints);
-    insert_scan(map_, simulate_scan(office_, robot_.sensor, pose), pose, robot_.sensor);
+    const Transform pose = T_map_sensor(request_, planner_.mast(), request_.joints);
+    planner_.insert(simulate_scan(office_, planner_.robot().sensor, pose), pose);
   }
 
   const VoxelGrid& office_;
-  Robot robot_ = coarse_robot();
-  UncertaintyMap map_;
+  std::shared_ptr<SharedMap> map_;
+  ViewPlanner planner_;
   PlanRequest request_;
 };
 

@@ -1,8 +1,8 @@
-#include "planner/landscape.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
+
+#include "planner/sample_landscape.hpp"
 
 namespace nbvopt {
 namespace {
@@ -29,12 +29,12 @@ PlanResult result_in(const JointBox& box) {
   return result;
 }
 
-GainLandscape landscape_of(const JointBox& box) {
-  return sample_landscape(Directions(), Mast(MastOptions{}), PlanRequest{}, result_in(box));
+Landscape landscape_of(const JointBox& box) {
+  return sample_landscape(Directions(), Mast(MastOptions{}), result_in(box));
 }
 
-TEST(GainLandscape, HoldsTheGainOfEveryPanAndTiltAtTheAnswersHeight) {
-  const GainLandscape landscape = landscape_of({{-0.12, -0.2, 0.3}, {0.13, 0.09, 0.5}});
+TEST(Landscape, HoldsTheGainOfEveryPanAndTiltAtTheAnswersHeight) {
+  const Landscape landscape = landscape_of({{-0.12, -0.2, 0.3}, {0.13, 0.09, 0.5}});
   EXPECT_EQ(landscape.height_m, 0.5);
   ASSERT_EQ(landscape.pan_rad.size(), 6U) << "0.05 rad apart or less";
   ASSERT_EQ(landscape.tilt_rad.size(), 7U);
@@ -51,22 +51,21 @@ TEST(GainLandscape, HoldsTheGainOfEveryPanAndTiltAtTheAnswersHeight) {
   }
 }
 
-TEST(GainLandscape, HasOneValueOfAFrozenJointAndTwoOfANarrowOne) {
-  const GainLandscape landscape = landscape_of({{0.3, -0.01, 0.4}, {0.3, 0.01, 0.4}});
+TEST(Landscape, HasOneValueOfAFrozenJointAndTwoOfANarrowOne) {
+  const Landscape landscape = landscape_of({{0.3, -0.01, 0.4}, {0.3, 0.01, 0.4}});
   EXPECT_THAT(landscape.pan_rad, ElementsAre(0.3));
   EXPECT_THAT(landscape.tilt_rad, ElementsAre(-0.01, 0.01));
   EXPECT_NEAR(landscape.interpolated(9.0, 0.0), 43.0, 1e-9) << "between the tilts, at the one pan";
 }
 
-TEST(GainLandscape, TakesNoMoreThanItsViews) {
-  const GainLandscape landscape = landscape_of({{-40.0, -1.5, 0.4}, {40.0, 1.5, 0.4}});
+TEST(Landscape, TakesNoMoreThanItsViews) {
+  const Landscape landscape = landscape_of({{-40.0, -1.5, 0.4}, {40.0, 1.5, 0.4}});
   EXPECT_LE(landscape.gain.size(), 20000U);
   EXPECT_GT(landscape.gain.size(), 15000U);
 }
 
-TEST(GainLandscape, InterpolatesAndEndsAtItsEdges) {
-  const GainLandscape landscape{
-      0.4, {0.0, 1.0, 2.0}, {0.0, 0.5}, {0.0, 10.0, 20.0, 1.0, 11.0, 21.0}};
+TEST(Landscape, InterpolatesAndEndsAtItsEdges) {
+  const Landscape landscape{0.4, {0.0, 1.0, 2.0}, {0.0, 0.5}, {0.0, 10.0, 20.0, 1.0, 11.0, 21.0}};
   EXPECT_DOUBLE_EQ(landscape.interpolated(0.0, 0.0), 0.0);
   EXPECT_DOUBLE_EQ(landscape.interpolated(1.5, 0.25), 15.5);
   EXPECT_DOUBLE_EQ(landscape.interpolated(2.0, 0.5), 21.0);

@@ -86,8 +86,8 @@ TEST(MovingBase, EndsTheMastsWayWhereTheDriveMeetsAnObstacle) {
   const World world(free_cube([](UncertaintyMap& map) {
     map.set(map.lattice().key({1.03, 0.02, 0.56}), occupied(1.0F));
   }));
-  EXPECT_EQ(world.planner().search_box(driving_request({0.0, 0.0, 0.0}, 0.0)).max[2], 0.63);
-  const JointBox box = world.planner().search_box(driving_request({1.0, 0.0, 0.0}, 0.0));
+  EXPECT_EQ(world.planner().reachable_box(driving_request({0.0, 0.0, 0.0}, 0.0)).max[2], 0.63);
+  const JointBox box = world.planner().reachable_box(driving_request({1.0, 0.0, 0.0}, 0.0));
   EXPECT_LT(box.max[2], 0.56);
   EXPECT_GT(box.max[2], 0.53);
   EXPECT_EQ(box.min[2], 0.18);
@@ -98,7 +98,7 @@ TEST(MovingBase, PassesNoObstacleByLargeSteps) {
   const World world(free_cube([](UncertaintyMap& map) {
     map.set(map.lattice().key({1.03, 0.02, 0.41}), occupied(1.0F));
   }));
-  EXPECT_LT(world.planner().search_box(driving_request({9.0, 0.0, 0.0}, 0.0)).max[2], 0.42);
+  EXPECT_LT(world.planner().reachable_box(driving_request({9.0, 0.0, 0.0}, 0.0)).max[2], 0.42);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What every answer of the planner keeps.
-#include "nbvopt/planner/planner.hpp"
+#include "planner/planner.hpp"
 
 #include <gmock/gmock.h>
 
@@ -96,7 +96,7 @@ TEST(Planner, TurnsAcrossTheSeamOfPan) {
 TEST(Planner, HasNoLimitWithoutAMotionTime) {
   const World world(free_cube());
   const PlanRequest request = request_at({10.0, 0.5, 0.3}, 0.0);
-  const JointBox box = world.planner().search_box(request);
+  const JointBox box = world.planner().reachable_box(request);
   EXPECT_EQ(box.min, Eigen::Vector3d(10.0 - kPi, -0.79, 0.18));
   EXPECT_EQ(box.max, Eigen::Vector3d(10.0 + kPi, 0.79, 0.63));
 }
@@ -194,7 +194,7 @@ class HeightBox : public ::testing::Test {
       }
     }));
     const PlanRequest request = request_at({0.0, 0.0, height_m}, 0.0);
-    return world.planner().search_box(request);
+    return world.planner().reachable_box(request);
   }
 };
 
@@ -207,7 +207,7 @@ TEST_F(HeightBox, IsNotCutByTheUnknown) {
   UncertaintyMap map(0.1);
   map.set(map.lattice().key({0.03, 0.02, 0.41}), kFree);
   map.finish_writing();
-  const JointBox box = World(map).planner().search_box(request_at(kMiddle, 0.0));
+  const JointBox box = World(map).planner().reachable_box(request_at(kMiddle, 0.0));
   EXPECT_EQ(box.min[2], 0.18);
   EXPECT_EQ(box.max[2], 0.63);
 }
@@ -258,7 +258,7 @@ TEST(Planner, CutsNoPanOrTiltAtAnObstacle) {
     map.set(map.lattice().key({0.03, 0.02, 0.55}), occupied(1.0F));
   }));
   const PlanRequest request = request_at(kMiddle, 0.3);
-  const JointBox box = world.planner().search_box(request);
+  const JointBox box = world.planner().reachable_box(request);
   const JointBox reachable = Mast(world.robot.mast).reachable_box(kMiddle, 0.3);
   EXPECT_EQ(box.min.head<2>(), reachable.min.head<2>());
   EXPECT_EQ(box.max.head<2>(), reachable.max.head<2>());

@@ -8,8 +8,8 @@
 #include <memory>
 #include <random>
 
-#include "nbvopt/planner/planner.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "planner/planner.hpp"
 #include "support/made_map.hpp"
 
 namespace nbvopt::test {
@@ -119,8 +119,9 @@ inline void expect_views_within_reach(const World& world, const PlanRequest& req
                                       std::mt19937_64& random) {
   const Mast mast(world.robot.mast);
   const CameraRays rays = DepthCamera(world.robot.sensor).rays();
-  const KeyBox touched = world.planner().reachable_voxels(request);
-  const JointBox box = mast.reachable_box(request.joints, request.motion_time_s);
+  const Reach reach = reach_of(request, mast, world.robot.sensor, world.grid->lattice());
+  const KeyBox& touched = reach.voxels;
+  const JointBox& box = reach.joints;
   for (int i = 0; i < 100; ++i) {
     const JointPosition q{uniform(random, box.min[0], box.max[0]),
                           uniform(random, box.min[1], box.max[1]),

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "planner/panorama_objective.hpp"

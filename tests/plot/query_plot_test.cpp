@@ -72,16 +72,14 @@ class Plot : public testing::Test {
   ~Plot() override { std::filesystem::remove(path_); }
 
   void write(const UncertaintyMap& map, const std::filesystem::path& path) {
-    const auto grid = VoxelGrid::whole(map);
-    const Robot robot;
-    const auto evaluator = make_exact_evaluator(grid, DepthCamera(robot.sensor));
-    const Mast mast(robot.mast);
+    const ViewPlanner planner(VoxelGrid::whole(map), Robot{});
+    result_.request = request_;
     result_.joints = request_.joints;
-    result_.T_map_sensor = T_map_sensor(request_, mast, request_.joints);
-    result_.view = result_.current = evaluator->evaluate(result_.T_map_sensor);
+    result_.T_map_sensor = T_map_sensor(request_, planner.mast(), request_.joints);
+    result_.view = result_.current = planner.evaluate(result_.T_map_sensor);
     result_.move_time_s = 0.0;
-    const GainLandscape landscape = sample_landscape(*evaluator, mast, request_, result_);
-    write_plot({*grid, *evaluator, robot, request_, result_, landscape, {-0.5, 0.5}}, path);
+    const Landscape landscape = planner.landscape(result_);
+    write_plot({planner, result_, landscape, {-0.5, 0.5}}, path);
   }
 
   std::string written() const {

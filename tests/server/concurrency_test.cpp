@@ -62,7 +62,7 @@ TEST(Concurrency, EveryCallAtOnce) {
         v1::GetStatusReply reply = handler.status(status);
         log.write(reply);
         seen(reply.map_version());
-        EXPECT_LE(reply.durable_version(), store.published()->version());
+        EXPECT_LE(reply.durable_version(), store.published()->map_version());
       },
   };
   {
@@ -77,10 +77,10 @@ TEST(Concurrency, EveryCallAtOnce) {
     }
   }
   // Scans, loads and clears each made a version, and nothing else did.
-  EXPECT_EQ(store.published()->version(), 1U + 3U * kRounds);
-  EXPECT_EQ(newest, store.published()->version());
+  EXPECT_EQ(store.published()->map_version(), 1U + 3U * kRounds);
+  EXPECT_EQ(newest, store.published()->map_version());
   snapshots.save();
-  EXPECT_EQ(read_snapshot(folder / "snapshot.ot")->version, store.published()->version());
+  EXPECT_EQ(read_snapshot(folder / "snapshot.ot")->version, store.published()->map_version());
 }
 
 }  // namespace

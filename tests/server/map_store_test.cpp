@@ -28,7 +28,7 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
     const MapStore::Insertion insertion = store.insert(test::small_scan(), test::scan_pose(i));
     insert_scan(expected, test::small_scan(), test::scan_pose(i), store.robot().sensor);
     EXPECT_EQ(insertion.version, static_cast<std::uint64_t>(i + 2));
-    EXPECT_EQ(store.published()->version(), insertion.version);
+    EXPECT_EQ(store.published()->map_version(), insertion.version);
   }
   const auto bytes = store.bytes(MapFormat::uncertainty_ot);
   EXPECT_EQ(bytes->version, 11U);
@@ -36,10 +36,10 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
   EXPECT_EQ(bytes->bytes, map_file_bytes(expected, MapFormat::uncertainty_ot));
 
   const auto grid = VoxelGrid::whole(expected);
-  const PublishedMap fresh(store.robot(), grid);
+  const ViewPlanner fresh(grid, store.robot());
   const auto solver = make_solver("auto", {});
-  const PlanResult here = store.published()->planner().plan(test::small_request(), *solver);
-  const PlanResult there = fresh.planner().plan(test::small_request(), *solver);
+  const PlanResult here = store.published()->plan(test::small_request(), *solver);
+  const PlanResult there = fresh.plan(test::small_request(), *solver);
   EXPECT_EQ(here.joints, there.joints);
   EXPECT_EQ(here.view, there.view);
   EXPECT_EQ(here.map_version, 11U);
@@ -48,14 +48,14 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
 TEST(MapStore, KeepsOldVersionsForThoseWhoReadThem) {
   MapStore store = make_store({}, 7);
   const auto before = store.published();
-  const ViewGain gain = before->evaluator().evaluate(test::scan_pose(0));
+  const ViewGain gain = before->evaluate(test::scan_pose(0));
   store.insert(test::small_scan(), test::scan_pose(0));
   store.clear(0.2);
-  EXPECT_EQ(before->version(), 7U);
-  EXPECT_EQ(before->evaluator().evaluate(test::scan_pose(0)), gain);
-  EXPECT_EQ(store.published()->version(), 9U);
-  EXPECT_EQ(store.published()->grid().lattice().resolution_m(), 0.2);
-  EXPECT_FALSE(store.published()->grid().has_occupied());
+  EXPECT_EQ(before->map_version(), 7U);
+  EXPECT_EQ(before->evaluate(test::scan_pose(0)), gain);
+  EXPECT_EQ(store.published()->map_version(), 9U);
+  EXPECT_EQ(store.published()->grid()->lattice().resolution_m(), 0.2);
+  EXPECT_FALSE(store.published()->grid()->has_occupied());
 }
 
 TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
@@ -67,7 +67,7 @@ TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
   const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
   EXPECT_THAT(test::message_of<LimitError>([&] { store.insert(test::small_scan(), far); }),
               HasSubstr("--max-map-extent"));
-  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.published()->map_version(), 1U);
   EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
   store.insert(test::small_scan(), test::scan_pose(0));  // the refused one did not count
 }
@@ -93,7 +93,7 @@ TEST(MapStore, RefusesMapsThatAreTooLarge) {
               HasSubstr("--min-resolution"));
   EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(1e300); }),
               HasSubstr("--max-map-extent"));
-  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.published()->map_version(), 1U);
 }
 
 TEST(MapStore, RefusesScansWhenItIsFull) {
@@ -106,7 +106,7 @@ TEST(MapStore, RefusesScansWhenItIsFull) {
   });
   EXPECT_THAT(message, HasSubstr("--max-map-mib"));
   EXPECT_GT(inserted, 0);
-  EXPECT_EQ(store.published()->version(), static_cast<std::uint64_t>(inserted + 1));
+  EXPECT_EQ(store.published()->map_version(), static_cast<std::uint64_t>(inserted + 1));
 }
 
 TEST(MapStore, RefusesBadScansAndStaysAsItWas) {
@@ -114,7 +114,7 @@ TEST(MapStore, RefusesBadScansAndStaysAsItWas) {
   Transform bad = test::scan_pose(0);
   bad.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(store.insert(test::small_scan(), bad), Error);
-  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.published()->map_version(), 1U);
   EXPECT_EQ(store.insert(test::small_scan(), test::scan_pose(0)).version, 2U);
 }
 
@@ -135,10 +135,10 @@ TEST(MapStoreConcurrency, EveryReaderSeesOneVersion) {
   std::vector<ViewGain> expected;
   {
     MapStore alone = make_store();
-    expected.push_back(alone.published()->evaluator().evaluate(test::scan_pose(5)));
+    expected.push_back(alone.published()->evaluate(test::scan_pose(5)));
     for (int i = 0; i < kScans; ++i) {
       alone.insert(test::small_scan(), test::scan_pose(i));
-      expected.push_back(alone.published()->evaluator().evaluate(test::scan_pose(5)));
+      expected.push_back(alone.published()->evaluate(test::scan_pose(5)));
     }
   }
   std::atomic<bool> done{false};
@@ -149,9 +149,9 @@ TEST(MapStoreConcurrency, EveryReaderSeesOneVersion) {
       std::uint64_t last = 0;
       do {
         const auto map = store.published();
-        EXPECT_GE(map->version(), last);
-        last = map->version();
-        EXPECT_EQ(map->evaluator().evaluate(test::scan_pose(5)), expected[last - 1]);
+        EXPECT_GE(map->map_version(), last);
+        last = map->map_version();
+        EXPECT_EQ(map->evaluate(test::scan_pose(5)), expected[last - 1]);
         ++read;
       } while (!done);
     });

@@ -32,8 +32,7 @@ class RequestHandlerTest : public ::testing::Test {
 };
 
 TEST_F(RequestHandlerTest, PlansAsThePlannerDoes) {
-  const auto expected =
-      store.published()->planner().plan(test::small_request(), *make_solver("auto", {}));
+  const auto expected = store.published()->plan(test::small_request(), *make_solver("auto", {}));
   v1::PlanRequest request = to_message(test::small_request());
   request.set_request_id(42);
   const v1::PlanReply reply = plan(request);
@@ -82,12 +81,12 @@ TEST_F(RequestHandlerTest, EvaluatesViews) {
   *mounted.mutable_base()->mutable_pose() = to_message(test::small_request().T_map_base);
   *mounted.mutable_joints() = to_message(JointPosition{7.0, 1.4, 0.9});  // limits do not bind
   const v1::EvaluateReply reply = handler.evaluate(request, Clock::now(), {});
-  const ViewEvaluator& evaluator = store.published()->evaluator();
+  const std::shared_ptr<const ViewPlanner> planner = store.published();
   ASSERT_EQ(reply.gains_size(), 2);
-  EXPECT_EQ(from_message(reply.gains(0)), evaluator.evaluate(test::scan_pose(2)));
+  EXPECT_EQ(from_message(reply.gains(0)), planner->evaluate(test::scan_pose(2)));
   EXPECT_EQ(from_message(reply.gains(1)),
-            evaluator.evaluate(test::small_request().T_map_base *
-                               Mast(MastOptions{}).T_base_sensor({7.0, 1.4, 0.9})));
+            planner->evaluate(test::small_request().T_map_base *
+                              Mast(MastOptions{}).T_base_sensor({7.0, 1.4, 0.9})));
   EXPECT_EQ(reply.map_version(), 1U);
 }
 
@@ -163,7 +162,7 @@ TEST_F(RequestHandlerTest, KeepsItsMapWhenAFileCannotBeRead) {
               HasSubstr("'bad.ot': this is not an OctoMap file"));
   load.set_path("none.ot");
   EXPECT_THROW(handler.load_map(load), RequestError);
-  EXPECT_EQ(store.published()->version(), 1U);
+  EXPECT_EQ(store.published()->map_version(), 1U);
   RequestHandler without(store, nullptr, nullptr, limits);
   EXPECT_THAT(test::message_of<RequestError>([&] { without.load_map(load); }),
               HasSubstr("--data-dir"));

@@ -32,10 +32,7 @@ class ServerTest : public ::testing::Test {
 };
 
 TEST_F(ServerTest, PlansToTheLastBitAsThePlannerDoes) {
-  const UncertaintyMap map = test::small_map();
-  const Robot robot = test::small_robot();
-  const auto grid = VoxelGrid::lazy(map);
-  const Planner planner(robot, grid, make_exact_evaluator(grid, DepthCamera(robot.sensor)));
+  const ViewPlanner planner(test::small_map(), test::small_robot());
   for (const char* solver : {"auto", "random", "nlopt:crs2"}) {
     PlanRequest request = test::small_request();
     request.seed = 5;

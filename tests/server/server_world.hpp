@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nbvopt/map/scan.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "support/made_map.hpp"
 
 namespace nbvopt::test {

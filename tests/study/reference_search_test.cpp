@@ -5,37 +5,16 @@
 #include <cmath>
 #include <optional>
 
-#include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 #include "support/oracle.hpp"
 #include "support/paths.hpp"
 
 namespace nbvopt::study {
 namespace {
 
-/// A gain that is a function of the joints: with the base at the origin and no sensor offset they
-/// can be read off the pose.
-class TextbookGain final : public ViewEvaluator {
- public:
-  explicit TextbookGain(double (*gain)(double pan, double tilt, double height)) : gain_(gain) {}
-  std::string name() const override { return "textbook"; }
-  ViewGain evaluate(const Transform& T_map_sensor) const override {
-    const Eigen::Vector3d forward = T_map_sensor.linear().col(2);
-    ViewGain view;
-    view.gain = gain_(std::atan2(forward.y(), forward.x()), std::asin(forward.z()),
-                      T_map_sensor.translation().z());
-    return view;
-  }
-
- private:
-  double (*gain_)(double, double, double);
-};
-
-Reference search(double (*gain)(double, double, double), const JointBox& box) {
-  PlanRequest request;
-  request.joints.height_m = 0.4;
-  request.motion_time_s = 1.0;
-  return find_reference(TextbookGain(gain), moving_mast(request, Mast(MastOptions())), box);
+Reference search(double (*gain)(double pan, double tilt, double height), const JointBox& box) {
+  return find_reference(
+      [gain](const JointPosition& q) { return gain(q.pan_rad, q.tilt_rad, q.height_m); }, box);
 }
 
 TEST(ReferenceSearch, FindsASummitInside) {
@@ -91,12 +70,7 @@ TEST_P(KnownOptima, AreReached) {
   const nlohmann::json oracle = test::read_oracle(file);
   Robot robot;
   robot.sensor = test::oracle_sensor(oracle);
-  const UncertaintyMap map = read_map(test::oracle_map_file(oracle));
-  const auto grid = VoxelGrid::lazy(map);
-  const std::shared_ptr<const ViewEvaluator> exact =
-      make_exact_evaluator(grid, DepthCamera(robot.sensor));
-  const Planner planner(robot, grid, exact);
-  const Mast mast(robot.mast);
+  const ViewPlanner planner(read_map(test::oracle_map_file(oracle)), robot);
   const nlohmann::json& cases = oracle.at("cases");
   for (std::size_t i = 0; i < cases.size(); i += 4) {  // seconds each
     const nlohmann::json& known = cases[i];
@@ -104,9 +78,10 @@ TEST_P(KnownOptima, AreReached) {
     request.T_map_base = test::oracle_base(known);
     request.joints = test::oracle_joints(known);
     request.motion_time_s = known.at("time_budget_s");
-    grid->make_ready(planner.reachable_voxels(request));
-    const Reference found =
-        find_reference(*exact, moving_mast(request, mast), planner.search_box(request));
+    const MovingMast mast = moving_mast(request, planner.mast());
+    const Reference found = find_reference(
+        [&](const JointPosition& q) { return planner.evaluate(mast.T_map_sensor(q)).gain; },
+        planner.reachable_box(request));
     EXPECT_GE(found.gain, known.at("best_gain").get<double>() * (1.0 - kReferenceAgreement));
     EXPECT_TRUE(found.has_agreed);
   }

@@ -13,7 +13,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/solver/search.hpp"
 
 namespace nbvopt {

@@ -30,6 +30,14 @@ struct StopRule {
   std::optional<Clock::time_point> deadline;  ///< none: no time limit
   CancelToken cancel;
 
+  /// Stops so many milliseconds from a time on; now unless another is given.
+  static StopRule within(double limit_ms, Clock::time_point since = Clock::now()) {
+    StopRule stop;
+    stop.deadline = since + std::chrono::duration_cast<Clock::duration>(
+                                std::chrono::duration<double, std::milli>(limit_ms));
+    return stop;
+  }
+
   bool is_expired() const { return deadline && Clock::now() >= *deadline; }
 };
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/view_planner.hpp"
 
 namespace nbvopt {
 
@@ -25,7 +25,7 @@ class CameraMode {
   virtual bool plans() const { return true; }
 
   /// Chooses within reach of the request.
-  virtual NextView next_view(const Planner& planner, const PlanRequest& request) const = 0;
+  virtual NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const = 0;
 };
 
 /// The modes by name:

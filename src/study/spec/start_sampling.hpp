@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
-#include "nbvopt/planner/planner.hpp"
+#include "nbvopt/planner/plan.hpp"
 #include "study/study.hpp"
 
 namespace nbvopt::study {

@@ -1,23 +1,18 @@
-// The planner: where should the camera look next?
+// A question to the planner, and its answer.
 #pragma once
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "nbvopt/core/stop.hpp"
+#include "nbvopt/gain/gain_model.hpp"
 #include "nbvopt/gain/panorama.hpp"
-#include "nbvopt/gain/view_evaluator.hpp"
 #include "nbvopt/mast/moving_mast.hpp"
-#include "nbvopt/planner/robot.hpp"
-#include "nbvopt/solver/solver.hpp"
 
 namespace nbvopt {
-
-class ViewObjective;
 
 /// One question. Born with NaN where there is no sensible default.
 struct PlanRequest {
@@ -55,7 +50,7 @@ struct TracePoint {
   JointPosition joints;
   double gain = std::numeric_limits<double>::quiet_NaN();
   double best_gain = std::numeric_limits<double>::quiet_NaN();  ///< exact, this one included
-  double time_ms = std::numeric_limits<double>::quiet_NaN();    ///< since the planner was called
+  double time_ms = std::numeric_limits<double>::quiet_NaN();    ///< since the search began
 };
 
 /// One answer. Its gain is exact (or the baseline's, where that evaluator was asked for), its
@@ -63,6 +58,7 @@ struct TracePoint {
 struct PlanResult {
   PlanStatus status = PlanStatus::not_run;
   std::string message = "the planner was not called";
+  PlanRequest request;  ///< the question, its joints moved into their limits
   JointPosition joints;
   Transform T_map_sensor = Transform::Identity();  ///< once the joints have arrived
   Transform T_map_base = Transform::Identity();    ///< once the joints have arrived
@@ -73,50 +69,14 @@ struct PlanResult {
   std::vector<std::string> active_bounds;  ///< such as "tilt_min": faces that the answer lies on
   std::int64_t evaluations = 0;            ///< of the evaluator, staying included
   std::int64_t surrogate_evaluations = 0;  ///< of the surrogate
-  double search_time_ms = std::numeric_limits<double>::quiet_NaN();
+  double search_time_ms = std::numeric_limits<double>::quiet_NaN();  ///< without grid_ms
+  /// Of reading the voxels in reach from the map, next to nothing where they were read before.
+  double grid_ms = std::numeric_limits<double>::quiet_NaN();
   std::string solver;
   std::uint64_t seed = 0;
   std::uint64_t map_version = 0;
   std::vector<std::string> warnings;
   std::vector<TracePoint> trace;  ///< every evaluation in order, where the request asks for it
-};
-
-/// Plans on one published grid. Const and safe to share between threads.
-class Planner {
- public:
-  /// The evaluator judges every candidate on the same map as the grid, which is shared with the
-  /// caller and tells what the mast must not touch.
-  Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
-          std::shared_ptr<const ViewEvaluator> evaluator);
-
-  /// Answers with the given solver. Throws InputError when the request is not usable: a pose, twist
-  /// or joint that is not finite, a joint beyond its limits, a negative motion time, a base that
-  /// drives or turns too far.
-  PlanResult plan(const PlanRequest& asked, const Solver& solver) const;
-
-  /// The box of Algorithm 2 around the request's joints, which are within their limits, its height
-  /// cut at the first occupied voxel that the optical centre would meet on its way up or down, the
-  /// base moving on meanwhile. The voxels in reach must be ready.
-  JointBox search_box(const PlanRequest& request) const;
-
-  /// Every voxel that a view from inside the reachable box can touch, the request's joints being
-  /// within their limits. Throws InputError when the base drives more than 100 m or turns more than
-  /// 100 rad meanwhile.
-  KeyBox reachable_voxels(const PlanRequest& request) const;
-
- private:
-  /// Fills the answer from what the solver found.
-  void choose(const PlanRequest& request, const MovingMast& mast, const ViewObjective& objective,
-              const SolveResult& solved, PlanResult& result) const;
-  /// The state of the voxel that holds the optical centre once the joints have arrived.
-  VoxelState state_at_camera(const MovingMast& mast, const JointPosition& joints) const;
-  void warn_of_map(const KeyBox& reachable, VoxelState at_camera,
-                   std::vector<std::string>& warnings) const;
-
-  Mast mast_;
-  SensorOptions sensor_;
-  std::shared_ptr<const VoxelGrid> grid_;
-  std::shared_ptr<const ViewEvaluator> evaluator_;
 };
 
 /// The panorama that searches see: half as dense as the sensor's rays, and few layers, since what
