@@ -9,7 +9,6 @@
 #include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
-#include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "plot/episode_plot.hpp"
@@ -18,9 +17,14 @@
 namespace nbvopt {
 namespace {
 
-Drive drive_itself(const SimulateOptions& options, const Scene& scene) {
+DriveOptions drive_options(const SimulateOptions& options) {
   DriveOptions drive = options.drive;
   drive.exploration.seed = static_cast<std::uint64_t>(options.seed);
+  return drive;
+}
+
+Drive drive_itself(const SimulateOptions& options, const Scene& scene) {
+  DriveOptions drive = drive_options(options);
   std::optional<Progress> progress;
   if (!options.is_silent) {
     progress.emplace("exploring, at most", drive.exploration.duration_max_s);
@@ -42,18 +46,8 @@ void answer(const SimulateOptions& options, const Json& json, const std::string&
 }
 
 void tell_drive(const SimulateOptions& options, const Drive& drive) {
-  const std::string status = to_string(drive.status.value());
-  const double duration_s = drive.trajectory.duration_s();
-  const double length_m = drive.trajectory.length_m();
-  answer(options,
-         {{"world", options.world.world_file},
-          {"start", options.drive.start},
-          {"status", status},
-          {"duration_s", duration_s},
-          {"length_m", length_m},
-          {"seed", options.seed}},
-         "exploration " + status + ": " + decimal(length_m, 1) + " m in " + decimal(duration_s, 1) +
-             " s\n");
+  const DriveReport report = report_of(drive, drive_options(options), options.world.world_file);
+  answer(options, to_json(report), to_text(report));
 }
 
 /// The episode that was asked for, found good before anything takes its time.

@@ -13,6 +13,13 @@ namespace {
 /// JSON has no NaN: what does not exist is null.
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+ExplorationStatus status_of(const std::string& name) {
+  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::time_limit}) {
+    if (name == to_string(status)) return status;
+  }
+  throw InputError("the status '" + name + "' of a drive is not known");
+}
+
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
 
 }  // namespace
@@ -54,6 +61,29 @@ Json to_json(const Capture& capture) {
           {"plan_ms", capture.plan_ms}};
 }
 
+Json to_json(const DriveReport& report) {
+  return {{"world", report.world},
+          {"start", report.start},
+          {"status", to_string(report.status)},
+          {"duration_s", report.duration_s},
+          {"length_m", report.length_m},
+          {"seed", report.seed}};
+}
+
+DriveReport drive_report_of(const Json& json) {
+  return {.world = json.at("world").get<std::string>(),
+          .start = json.at("start").get<std::vector<double>>(),
+          .status = status_of(json.at("status").get<std::string>()),
+          .duration_s = json.at("duration_s").get<double>(),
+          .length_m = json.at("length_m").get<double>(),
+          .seed = json.at("seed").get<std::uint64_t>()};
+}
+
+std::string to_text(const DriveReport& report) {
+  return std::string("exploration ") + to_string(report.status) + ": " +
+         decimal(report.length_m, 1) + " m in " + decimal(report.duration_s, 1) + " s\n";
+}
+
 Json to_json(const EpisodeReport& report) {
   const EpisodeSummary& summary = report.summary;
   const PredictionRecord& prediction = summary.prediction;
@@ -85,6 +115,39 @@ Json to_json(const EpisodeReport& report) {
             {"grid", report.times.grid_ms},
             {"plan", report.times.plan_ms},
             {"episode", report.elapsed_ms}}}};
+}
+
+EpisodeReport episode_report_of(const Json& json) {
+  const Json& prediction = json.at("prediction");
+  const Json& pooled = prediction.at("pooled");
+  const Json& times_ms = json.at("times_ms");
+  const auto number = [](const Json& object, const char* key) {
+    return object.at(key).get<double>();
+  };
+  const auto count = [](const Json& object, const char* key) {
+    return object.at(key).get<std::uint64_t>();
+  };
+  return {.world = json.at("world").get<std::string>(),
+          .mode = json.at("mode").get<std::string>(),
+          .motion_time_s = number(json, "motion_time_s"),
+          .seed = count(json, "seed"),
+          .summary = {.duration_s = number(json, "duration_s"),
+                      .captures = count(json, "captures"),
+                      .voxels = count(json, "voxels"),
+                      .information = number(json, "information"),
+                      .prediction = {.steps = count(prediction, "steps"),
+                                     .sum_x = number(pooled, "sum_x"),
+                                     .sum_y = number(pooled, "sum_y"),
+                                     .sum_xx = number(pooled, "sum_xx"),
+                                     .sum_yy = number(pooled, "sum_yy"),
+                                     .sum_xy = number(pooled, "sum_xy")}},
+          .paper_counts = {.voxels = count(json, "voxels_as_paper_counts"),
+                           .information = number(json, "information_as_paper_counts")},
+          .times = {.render_ms = number(times_ms, "render"),
+                    .insert_ms = number(times_ms, "insert"),
+                    .grid_ms = number(times_ms, "grid"),
+                    .plan_ms = number(times_ms, "plan")},
+          .elapsed_ms = number(times_ms, "episode")};
 }
 
 std::string to_text(const EpisodeReport& report) {

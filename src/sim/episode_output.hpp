@@ -1,11 +1,13 @@
-// What an episode leaves behind, for programs and for people.
+// What drives and episodes leave behind, for programs and for people.
 #pragma once
 
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/json.hpp"
 #include "nbvopt/sim/episode.hpp"
+#include "nbvopt/sim/exploration.hpp"
 
 namespace nbvopt {
 
@@ -28,6 +30,16 @@ class StepTimer {
   std::uint64_t captures_ = 0;
 };
 
+/// All of a drive with the camera off that is worth telling.
+struct DriveReport {
+  std::string world = {};
+  std::vector<double> start = {};  ///< as DriveOptions::start
+  ExplorationStatus status = ExplorationStatus::complete;
+  double duration_s = 0.0;
+  double length_m = 0.0;
+  std::uint64_t seed = 0;
+};
+
 /// All of an episode that is worth telling.
 struct EpisodeReport {
   std::string world;
@@ -41,8 +53,15 @@ struct EpisodeReport {
 };
 
 Json to_json(const Capture& capture);
+Json to_json(const DriveReport& report);
 Json to_json(const EpisodeReport& report);
+std::string to_text(const DriveReport& report);
 std::string to_text(const EpisodeReport& report);
+
+/// The way back; other keys are passed over. Throw nlohmann's exceptions, and InputError for a
+/// status that is not known.
+DriveReport drive_report_of(const Json& json);
+EpisodeReport episode_report_of(const Json& json);
 
 /// Writes a JSON object a line while the episode runs. Throws InputError that names the file when
 /// it cannot be written.

@@ -40,6 +40,15 @@ Drive make_drive(const Scene& scene, const DriveOptions& options) {
   return {std::move(exploration.trajectory), exploration.status};
 }
 
+DriveReport report_of(const Drive& drive, const DriveOptions& options, const std::string& world) {
+  return {.world = world,
+          .start = options.start,
+          .status = drive.status.value(),
+          .duration_s = drive.trajectory.duration_s(),
+          .length_m = drive.trajectory.length_m(),
+          .seed = options.exploration.seed};
+}
+
 Simulation::Simulation(SimulationOptions options)
     : options_(std::move(options)),
       mode_(make_camera_mode(options_.mode)),

@@ -35,6 +35,9 @@ struct Drive {
 /// there is no floor below the start.
 Drive make_drive(const Scene& scene, const DriveOptions& options);
 
+/// Tells of a drive that was made with these options, in the world of that name.
+DriveReport report_of(const Drive& drive, const DriveOptions& options, const std::string& world);
+
 struct SimulationOptions {
   std::string world;          ///< its name in the report
   std::string mode = "auto";  ///< one of camera_mode_names()

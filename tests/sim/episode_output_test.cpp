@@ -1,0 +1,78 @@
+#include "sim/episode_output.hpp"
+
+#include <gmock/gmock.h>
+
+#include "nbvopt/core/error.hpp"
+#include "support/error_message.hpp"
+
+namespace nbvopt {
+namespace {
+
+using testing::HasSubstr;
+
+EpisodeReport made_episode() {
+  EpisodeReport report;
+  report.world = "room.world";
+  report.mode = "grid-3";
+  report.motion_time_s = 0.2;
+  report.seed = 7;
+  report.summary = {.duration_s = 1.0 / 3.0,
+                    .captures = 5,
+                    .voxels = 12'345,
+                    .information = 0.1 + 0.2,
+                    .prediction = {2, 3.5, 4, 5, 10.25, 7}};
+  report.paper_counts = {.voxels = 20'000, .information = 1e-9};
+  report.times = {1.5, 2.5, 3.5, 4.5};
+  report.elapsed_ms = 99.0;
+  return report;
+}
+
+TEST(EpisodeReport, IsTheSameAfterItsWayThroughText) {
+  const Json json = to_json(made_episode());
+  const EpisodeReport read = episode_report_of(Json::parse(json.dump()));
+  EXPECT_EQ(to_json(read), json);
+  EXPECT_EQ(read.summary.information, 0.1 + 0.2) << "to the bit";
+  EXPECT_EQ(read.summary.prediction.sum_xy, 7.0);
+  EXPECT_EQ(read.paper_counts.voxels, 20'000U);
+  EXPECT_EQ(read.times.plan_ms, 4.5);
+}
+
+TEST(EpisodeReport, ToleratesThatNothingWasPredicted) {
+  EpisodeReport still = made_episode();
+  still.summary.prediction = {};
+  const Json json = to_json(still);
+  EXPECT_TRUE(json.at("prediction").at("correlation").is_null());
+  EXPECT_EQ(to_json(episode_report_of(json)), json);
+}
+
+TEST(EpisodeReport, MissesEveryFigure) {
+  for (const char* key :
+       {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information",
+        "voxels_as_paper_counts", "information_as_paper_counts", "prediction", "times_ms"}) {
+    Json json = to_json(made_episode());
+    json.erase(key);
+    EXPECT_THROW(episode_report_of(json), Json::exception) << key;
+  }
+}
+
+TEST(DriveReport, IsTheSameAfterItsWay) {
+  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::time_limit}) {
+    const Json json = to_json(DriveReport{.world = "room.world",
+                                          .start = {1.0, 0.1, 1.57},
+                                          .status = status,
+                                          .duration_s = 26.2,
+                                          .length_m = 1.0 / 3.0,
+                                          .seed = 3});
+    EXPECT_EQ(to_json(drive_report_of(json)), json);
+    EXPECT_EQ(drive_report_of(json).status, status);
+  }
+}
+
+TEST(DriveReport, RefusesAStatusThatThereIsNot) {
+  Json json = to_json(DriveReport{});
+  json["status"] = "lost";
+  EXPECT_THAT(test::message_of<InputError>([&] { drive_report_of(json); }), HasSubstr("'lost'"));
+}
+
+}  // namespace
+}  // namespace nbvopt
