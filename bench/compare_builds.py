@@ -484,7 +484,7 @@ def study_checks(old: Build):
 def reproduce_checks(shared: Path):
     worlds = shared / "worlds"
     command = ["reproduce", "--worlds", worlds, "--environments", "simple_house", "--starts", "1"]
-    command += ["--duration-max", "10", "--out", "reproduction", "--jobs", "2"]
+    command += ["--duration-max", "10", "--out", "reproduction", "--jobs", "1"]
     yield Check(
         "reproduce",
         [[*command, "--dry-run"], command, command],

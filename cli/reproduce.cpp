@@ -5,27 +5,117 @@
 #include <limits>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "cli/options/arguments.hpp"
-#include "cli/reproduction.hpp"
+#include "cli/terminal/end_by_signal.hpp"
+#include "cli/terminal/output.hpp"
+#include "cli/terminal/progress.hpp"
+#include "core/folder.hpp"
+#include "experiment/worker.hpp"
+#include "nbvopt/core/error.hpp"
+#include "reproduction/reproduction_run.hpp"
+#include "reproduction/table.hpp"
+#include "reproduction/text.hpp"
+#include "reproduction/unit_runner.hpp"
 
 namespace nbvopt {
+namespace {
+
+struct ReproduceOptions {
+  ExperimentOptions experiment;
+  std::int64_t jobs = 0;  ///< processes at a time; 0: one a core
+  bool dry_run = false;
+};
+
+std::size_t count_missing(const std::vector<UnitResult>& results) {
+  return static_cast<std::size_t>(std::ranges::count(
+      results, false, [](const UnitResult& result) { return result.is_there(); }));
+}
+
+void print_commands(std::vector<Unit> units, const ReproductionFolder& folder) {
+  std::string text;
+  for (const Unit& unit : units) text += command_line(unit, folder) + '\n';
+  std::size_t done = 0;
+  // Worlds take time to read, and there may be nothing to compare them with.
+  if (std::filesystem::exists(folder.records())) {
+    read_worlds(units);
+    done = units.size() - count_missing(read_results(units, folder));
+  }
+  print_answer(text + "# " + std::to_string(units.size()) + " commands, " + std::to_string(done) +
+               " of them done\n");
+}
+
+/// Runs what has no result yet; the number of units that failed.
+std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& options) {
+  const ReproductionFolder& folder = options.experiment.folder;
+  const std::size_t workers = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
+                                               : std::max(1U, std::thread::hardware_concurrency());
+  Progress progress("reproduce", static_cast<double>(count_missing(read_results(units, folder))));
+  double ended = 0.0;
+  const auto on_record = [&](const Json& record) {
+    if (record.contains("failure")) {
+      progress.finish();
+      print_message("unit " + record.at("name").get<std::string>() +
+                    " failed: " + record.at("failure").get<std::string>());
+    }
+    progress.update(++ended);
+  };
+  const experiment::RunResult result = run_reproduction(
+      units, folder, {"/proc/self/exe", "reproduce", "worker"}, workers, on_record);
+  progress.finish();
+  if (result.stopped_by) end_by(*result.stopped_by);
+  return result.failed;
+}
+
+void reproduce(ReproduceOptions options) {
+  options.experiment.world = {.model_paths = gazebo_model_paths(),
+                              .cache_folder = user_cache_folder()};
+  const ReproductionFolder& folder = options.experiment.folder;
+  std::vector<Unit> units = experiment_units(options.experiment);
+  if (options.dry_run) return print_commands(std::move(units), folder);
+  create_folder(folder.units());  // first: it is soon known whether that can be done
+  read_worlds(units);
+  const std::size_t failed = run_units(units, options);
+  const ReproductionTable table = make_table(units, read_results(units, folder));
+  write_tables(table, folder.root);
+  print_answer(to_markdown(table));
+  if (failed > 0) {
+    throw InputError(std::to_string(failed) + " of " + std::to_string(units.size()) +
+                     " units failed; the tables in " + folder.root.string() +
+                     " hold the rest, the same command tries again");
+  }
+}
+
+void run_worker() {
+  UnitRunner runner;
+  experiment::run_worker([&](const Json& unit) { return runner.run(simulation_unit_of(unit)); });
+}
+
+/// Options that are required otherwise are not of the worker.
+CLI::App* add_worker(CLI::App& command, const std::vector<CLI::Option*>& required) {
+  CLI::App* worker = command.add_subcommand(
+      "worker", "Answer units of work, a line each, from standard input to standard output");
+  worker->preparse_callback([required](std::size_t) {
+    for (CLI::Option* option : required) option->required(false);
+  });
+  worker->callback(run_worker);
+  return worker;
+}
+
+}  // namespace
 
 void set_up_reproduce(CLI::App& app) {
   auto options = std::make_shared<ReproduceOptions>();
-  auto jobs = std::make_shared<std::int64_t>(0);
   ExperimentOptions& experiment = options->experiment;
   CLI::App* command = app.add_subcommand("reproduce", "The paper's experiment, with its table");
-  command
-      ->add_option("--worlds", experiment.worlds_folder,
-                   "the environments, a folder each: simple_house, apartment, ...")
-      ->type_name("DIR")
-      ->required();
-  command
-      ->add_option("--out", experiment.output_folder,
-                   "what is done so far, and the tables; created if need be")
-      ->type_name("DIR")
-      ->required();
+  CLI::Option* worlds =
+      command->add_option("--worlds", experiment.worlds_folder,
+                          "the environments, a folder each: simple_house, apartment, ...");
+  worlds->type_name("DIR")->required();
+  CLI::Option* out = command->add_option("--out", experiment.folder.root,
+                                         "what is done so far, and the tables; created if need be");
+  out->type_name("DIR")->required();
   command
       ->add_option(
           "--environments", experiment.environments,
@@ -34,7 +124,7 @@ void set_up_reproduce(CLI::App& app) {
       ->delimiter(',');
   add_whole_number(*command, "--starts", experiment.starts, 1, 3,
                    "only the first so many starts of each environment");
-  add_whole_number(*command, "--jobs", *jobs, 0, 1024,
+  add_whole_number(*command, "--jobs", options->jobs, 0, 1024,
                    "processes at a time; 0: one a core. Tables do not depend on it");
   add_whole_number(*command, "--seed", experiment.seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of explorations and searches");
@@ -42,6 +132,7 @@ void set_up_reproduce(CLI::App& app) {
              "end explorations after this, for short trials [3600; 1615 in willowgarage]");
   command->add_flag("--dry-run", options->dry_run,
                     "print the commands, one a line, and their number");
+  const CLI::App* worker = add_worker(*command, {worlds, out});
   command->footer(
       "Explores from every start once, then replays each trajectory with the camera still, with\n"
       "the paper's grid and with auto for t = 0.2, 0.5 and 1.0 s, with a grid over three joints "
@@ -50,10 +141,8 @@ void set_up_reproduce(CLI::App& app) {
       "prediction.csv and table.json. What is done already, by the same command, is not run "
       "again.\n"
       "Example: nbvopt reproduce --worlds worlds --out reproduction");
-  command->callback([options, jobs] {
-    options->jobs = *jobs > 0 ? static_cast<std::size_t>(*jobs)
-                              : std::max(1U, std::thread::hardware_concurrency());
-    reproduce(*options);
+  command->callback([options, worker] {
+    if (!worker->parsed()) reproduce(*options);
   });
 }
 

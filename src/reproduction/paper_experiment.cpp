@@ -1,7 +1,6 @@
 #include "reproduction/paper_experiment.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "core/number.hpp"
@@ -14,12 +13,6 @@ namespace fs = std::filesystem;
 
 constexpr double kNoHurry_s = 3600.0;  ///< all that is reachable is seen before
 
-constexpr EpisodeSetting kSettings[] = {
-    {"static", 0.2}, {"grid", 0.2}, {"auto", 0.2},                                    //
-    {"static", 0.5}, {"grid", 0.5}, {"grid-3", 0.5}, {"auto", 0.5}, {"random", 0.5},  //
-    {"static", 1.0}, {"grid", 1.0}, {"auto", 1.0},
-};
-
 std::vector<const ExperimentEnvironment*> chosen_environments(
     const std::vector<std::string>& names) {
   std::string known;
@@ -29,7 +22,7 @@ std::vector<const ExperimentEnvironment*> chosen_environments(
   for (const std::string& name : names) {
     const auto all = experiment_environments();
     if (std::ranges::find(all, name, &ExperimentEnvironment::name) == all.end()) {
-      throw UsageError("--environments: '" + name + "' is none of " + known);
+      throw UsageError("environment '" + name + "' is none of " + known);
     }
   }
   std::vector<const ExperimentEnvironment*> chosen;
@@ -45,84 +38,38 @@ fs::path world_of(const ExperimentEnvironment& environment, const fs::path& worl
   const fs::path world = worlds_folder / environment.world_file;
   std::error_code ignored;
   if (!fs::is_regular_file(world, ignored)) {
-    throw InputError(world.string() + ": there is no such world; --environments can leave out '" +
-                     std::string(environment.name) + "'");
+    throw InputError(world.string() + ": there is no such world; the environment '" +
+                     std::string(environment.name) + "' can be left out");
   }
   return world;
 }
 
-std::string text(const StartPose& start) {
-  return format_number(start.x_m) + ',' + format_number(start.y_m) + ',' +
-         format_number(start.yaw_rad);
-}
-
-/// What both kinds of unit have in common; one thread each, since every core has its own process.
-std::vector<std::string> arguments(const ExperimentOptions& options, const Unit& unit,
-                                   std::vector<std::string> own) {
-  std::vector<std::string> all{
-      "simulate",
-      world_of(*unit.environment, options.worlds_folder).string(),
-  };
-  all.insert(all.end(), own.begin(), own.end());
-  const std::vector<std::string> common{"--seed",       std::to_string(options.seed),
-                                        "--summary",    unit.summary.string(),
-                                        "--threads",    "1",
-                                        "--no-progress"};
-  all.insert(all.end(), common.begin(), common.end());
-  return all;
-}
-
-Unit exploration_unit(const ExperimentOptions& options, const ExperimentEnvironment& environment,
-                      std::size_t start) {
+Unit drive_unit(const ExperimentOptions& options, const ExperimentEnvironment& environment,
+                std::size_t start) {
   Unit unit;
   unit.name = std::string(environment.name) + '-' + std::to_string(start) + "-trajectory";
   unit.environment = &environment;
   unit.start = start;
-  unit.trajectory = options.output_folder / "units" / (unit.name + ".csv");
-  unit.summary = options.output_folder / "units" / (unit.name + ".json");
-  std::vector<std::string> own{
-      "--start",
-      text(environment.starts[start - 1]),
-      "--explore-only",
-      "--trajectory-out",
-      unit.trajectory.string(),
-      "--lidar-range",
-      format_number(environment.lidar_range_m),
-      "--duration-max",
-      format_number(std::min(environment.duration_max_s,
-                             options.duration_max_s.value_or(environment.duration_max_s)))};
-  unit.arguments = arguments(options, unit, own);
+  unit.simulation = {
+      .world = {world_of(environment, options.worlds_folder), options.world, {}},
+      .trajectory = options.folder.units() / (unit.name + ".csv"),
+      .seed = static_cast<std::uint64_t>(options.seed),
+      .setting = DriveSetting{
+          .start = environment.starts[start - 1],
+          .lidar_range_m = environment.lidar_range_m,
+          .duration_max_s = std::min(environment.duration_max_s,
+                                     options.duration_max_s.value_or(environment.duration_max_s))}};
   return unit;
 }
 
-Unit episode_unit(const ExperimentOptions& options, const Unit& exploration,
-                  std::size_t exploration_index, const EpisodeSetting& setting) {
-  Unit unit;
-  unit.name = std::string(exploration.environment->name) + '-' + std::to_string(exploration.start) +
-              '-' + std::string(setting.mode) + '-' + format_number(setting.motion_time_s);
-  unit.environment = exploration.environment;
-  unit.start = exploration.start;
-  unit.episode = setting;
-  unit.exploration = exploration_index;
-  unit.trajectory = exploration.trajectory;
-  unit.summary = options.output_folder / "units" / (unit.name + ".json");
-  unit.arguments =
-      arguments(options, unit,
-                {"--trajectory", unit.trajectory.string(), "--mode", std::string(setting.mode),
-                 "--motion-time", format_number(setting.motion_time_s)});
+Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
+                  const EpisodeSetting& setting) {
+  Unit unit = units[drive];
+  unit.name = std::string(unit.environment->name) + '-' + std::to_string(unit.start) + '-' +
+              setting.mode + '-' + format_number(setting.motion_time_s);
+  unit.drive = drive;
+  unit.simulation.setting = setting;
   return unit;
-}
-
-/// A word that a shell takes as it is, in quotes where need be.
-std::string quoted(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view("_-+=,.:/@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + '\'';
 }
 
 }  // namespace
@@ -163,7 +110,14 @@ std::span<const ExperimentEnvironment> experiment_environments() {
   return kEnvironments;
 }
 
-std::span<const EpisodeSetting> episode_settings() { return kSettings; }
+std::span<const EpisodeSetting> episode_settings() {
+  static const EpisodeSetting kSettings[] = {
+      {"static", 0.2}, {"grid", 0.2}, {"auto", 0.2},                                    //
+      {"static", 0.5}, {"grid", 0.5}, {"grid-3", 0.5}, {"auto", 0.5}, {"random", 0.5},  //
+      {"static", 1.0}, {"grid", 1.0}, {"auto", 1.0},
+  };
+  return kSettings;
+}
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
   std::vector<Unit> units;
@@ -171,22 +125,20 @@ std::vector<Unit> experiment_units(const ExperimentOptions& options) {
     const auto starts =
         std::min(environment->starts.size(), static_cast<std::size_t>(options.starts));
     for (std::size_t start = 1; start <= starts; ++start) {
-      units.push_back(exploration_unit(options, *environment, start));
+      units.push_back(drive_unit(options, *environment, start));
     }
   }
-  const std::size_t explorations = units.size();
-  for (std::size_t exploration = 0; exploration < explorations; ++exploration) {
-    for (const EpisodeSetting& setting : kSettings) {
-      units.push_back(episode_unit(options, units[exploration], exploration, setting));
+  const std::size_t drives = units.size();
+  for (std::size_t drive = 0; drive < drives; ++drive) {
+    for (const EpisodeSetting& setting : episode_settings()) {
+      units.push_back(episode_unit(units, drive, setting));
     }
   }
   return units;
 }
 
-std::string command_line(const Unit& unit) {
-  std::string line = "nbvopt";
-  for (const std::string& argument : unit.arguments) line += ' ' + quoted(argument);
-  return line;
+std::string command_line(const Unit& unit, const ReproductionFolder& folder) {
+  return command_line(unit.simulation, folder.units() / (unit.name + ".json"));
 }
 
 }  // namespace nbvopt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <variant>
 
 #include "core/json.hpp"
 
@@ -10,7 +11,20 @@ namespace nbvopt {
 namespace {
 
 /// Episodes of one environment and setting, by start.
-using Episodes = std::map<std::size_t, EpisodeFigures>;
+using Episodes = std::map<std::size_t, EpisodeReport>;
+
+/// A number of an episode.
+using Figure = double (*)(const EpisodeReport&);
+
+double duration_s(const EpisodeReport& episode) { return episode.summary.duration_s; }
+double voxels(const EpisodeReport& episode) { return static_cast<double>(episode.summary.voxels); }
+double information(const EpisodeReport& episode) { return episode.summary.information; }
+double voxels_as_paper_counts(const EpisodeReport& episode) {
+  return static_cast<double>(episode.paper_counts.voxels);
+}
+double information_as_paper_counts(const EpisodeReport& episode) {
+  return episode.paper_counts.information;
+}
 
 /// Every result where it belongs.
 class ResultIndex {
@@ -26,7 +40,9 @@ class ResultIndex {
     Episodes found;
     for (std::size_t i = 0; i < units_.size(); ++i) {
       const Unit& unit = units_[i];
-      if (unit.environment == &environment && unit.episode == setting && results_[i].episode) {
+      const auto* episode = std::get_if<EpisodeSetting>(&unit.simulation.setting);
+      if (unit.environment == &environment && episode && *episode == setting &&
+          results_[i].episode) {
         found.emplace(unit.start, *results_[i].episode);
       }
     }
@@ -38,9 +54,9 @@ class ResultIndex {
   std::span<const UnitResult> results_;
 };
 
-double mean(const Episodes& episodes, double EpisodeFigures::*figure) {
+double mean(const Episodes& episodes, Figure figure) {
   double sum = 0.0;
-  for (const auto& [start, episode] : episodes) sum += episode.*figure;
+  for (const auto& [start, episode] : episodes) sum += figure(episode);
   return sum / static_cast<double>(episodes.size());
 }
 
@@ -53,14 +69,14 @@ Episodes shared_with(const Episodes& episodes, const Episodes& others) {
 }
 
 std::string test_name(const EpisodeSetting& setting) {
-  return setting.mode == "static" ? "2D" : "2D+" + std::string(setting.mode);
+  return setting.mode == "static" ? "2D" : "2D+" + setting.mode;
 }
 
 void set_figures(ResultRow& row, const Episodes& episodes) {
   row.starts = static_cast<double>(episodes.size());
-  row.voxels = mean(episodes, &EpisodeFigures::voxels);
-  row.information = mean(episodes, &EpisodeFigures::information);
-  row.duration_s = mean(episodes, &EpisodeFigures::duration_s);
+  row.voxels = mean(episodes, voxels);
+  row.information = mean(episodes, information);
+  row.duration_s = mean(episodes, duration_s);
   row.voxels_per_s = *row.voxels / *row.duration_s;
   row.information_per_s = *row.information / *row.duration_s;
 }
@@ -69,15 +85,14 @@ void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes
   const Episodes episodes = shared_with(all_episodes, all_still);
   const Episodes still = shared_with(all_still, all_episodes);
   if (episodes.empty()) return;
-  const auto percent = [&](double EpisodeFigures::*figure) {
+  const auto percent = [&](Figure figure) {
     return 100.0 * (mean(episodes, figure) / mean(still, figure) - 1.0);
   };
-  row.voxels_percent = percent(&EpisodeFigures::voxels);
-  row.gain =
-      mean(episodes, &EpisodeFigures::information) - mean(still, &EpisodeFigures::information);
-  row.gain_percent = percent(&EpisodeFigures::information);
-  row.as_paper_counts_voxels_percent = percent(&EpisodeFigures::voxels_as_paper_counts);
-  row.as_paper_counts_gain_percent = percent(&EpisodeFigures::information_as_paper_counts);
+  row.voxels_percent = percent(voxels);
+  row.gain = mean(episodes, information) - mean(still, information);
+  row.gain_percent = percent(information);
+  row.as_paper_counts_voxels_percent = percent(voxels_as_paper_counts);
+  row.as_paper_counts_gain_percent = percent(information_as_paper_counts);
 }
 
 /// What the paper's tables say of this test: they know a still camera and the pan grid.
@@ -162,7 +177,7 @@ void append_predictions(std::vector<PredictionRow>& rows, const std::string& lab
     row.motion_time_s = setting.motion_time_s;
     for (const ExperimentEnvironment& environment : environments) {
       for (const auto& [start, episode] : index.episodes(environment, setting)) {
-        row.record += episode.prediction;
+        row.record += episode.summary.prediction;
       }
     }
     if (row.record.steps > 0) rows.push_back(std::move(row));
@@ -185,8 +200,8 @@ ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitRe
   const ResultIndex index(units, results);
   ReproductionTable table{result_rows(index), prediction_rows(index), {}, {}};
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!results[i].exploration && !results[i].episode) table.missing.push_back(units[i].name);
-    if (results[i].exploration && results[i].exploration->status != "complete") {
+    if (!results[i].is_there()) table.missing.push_back(units[i].name);
+    if (results[i].drive && results[i].drive->status != ExplorationStatus::complete) {
       table.incomplete.push_back(units[i].name);
     }
   }

@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "reproduction/paper_experiment.hpp"
 #include "reproduction/paper_tables.hpp"
-#include "reproduction/unit_summary.hpp"
+#include "reproduction/record.hpp"
 
 namespace nbvopt {
-
-/// What a unit left behind; none of both when it has not been run to its end.
-struct UnitResult {
-  std::optional<ExplorationFigures> exploration;
-  std::optional<EpisodeFigures> episode;
-};
 
 /// Which test of which environment a row is about.
 struct RowLabel {

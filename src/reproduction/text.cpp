@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/atomic_file.hpp"
 #include "core/number.hpp"
 #include "report/text_table.hpp"
 
@@ -221,6 +222,13 @@ Json to_json(const ReproductionTable& table) {
           {"predictions", json<PredictionRow>(table.predictions, kPredictionColumns)},
           {"missing", table.missing},
           {"incomplete_explorations", table.incomplete}};
+}
+
+void write_tables(const ReproductionTable& table, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "table.md", to_markdown(table));
+  write_file_atomically(folder / "table.csv", to_csv(table.results));
+  write_file_atomically(folder / "prediction.csv", to_csv(table.predictions));
+  write_file_atomically(folder / "table.json", to_text(to_json(table)));
 }
 
 }  // namespace nbvopt

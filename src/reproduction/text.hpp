@@ -1,6 +1,7 @@
 // The table of a reproduction as text: the same table gives the same bytes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,9 @@ std::string to_markdown(const ReproductionTable& table);
 std::string to_csv(const std::vector<ResultRow>& rows);
 std::string to_csv(const std::vector<PredictionRow>& rows);
 Json to_json(const ReproductionTable& table);
+
+/// Writes them into the folder: table.md, table.csv, prediction.csv and table.json. Throws
+/// InputError when one cannot be written.
+void write_tables(const ReproductionTable& table, const std::filesystem::path& folder);
 
 }  // namespace nbvopt

@@ -26,12 +26,12 @@ class Reproduction : public testing::Test {
     }
     ExperimentOptions options;
     options.worlds_folder = folder.path();
-    options.output_folder = "out";
+    options.folder.root = "out";
     options.environments = {"cafe", "apartment"};
     units = experiment_units(options);
     results.resize(units.size());
     for (std::size_t i = 0; i < units.size(); ++i) {
-      if (!units[i].episode) results[i].exploration = {"complete", 200.0, 40.0};
+      if (units[i].is_drive()) results[i].drive = {.duration_s = 200.0, .length_m = 40.0};
     }
   }
 
@@ -42,14 +42,13 @@ class Reproduction : public testing::Test {
   }
 
   /// As the authors count, there is twice as much, and 10 more.
-  static EpisodeFigures episode(double voxels, double information) {
-    EpisodeFigures summary;
-    summary.duration_s = 100.0;
-    summary.voxels = voxels;
-    summary.information = information;
-    summary.voxels_as_paper_counts = 2.0 * voxels;
-    summary.information_as_paper_counts = 2.0 * information + 10.0;
-    return summary;
+  static EpisodeReport episode(std::uint64_t voxels, double information) {
+    EpisodeReport record;
+    record.summary.duration_s = 100.0;
+    record.summary.voxels = voxels;
+    record.summary.information = information;
+    record.paper_counts = {.voxels = 2 * voxels, .information = 2.0 * information + 10.0};
+    return record;
   }
 
   ReproductionTable table() const { return make_table(units, results); }
@@ -138,8 +137,8 @@ TEST_F(Reproduction, PercentagesCompareOnlyStartsThatHaveBoth) {
 
 TEST_F(Reproduction, HolesAreNamed) {
   at("cafe-1-grid-0.5").episode = episode(1000, 500);
-  at("apartment-2-trajectory").exploration.reset();
-  at("apartment-3-trajectory").exploration->status = "time_limit";
+  at("apartment-2-trajectory").drive.reset();
+  at("apartment-3-trajectory").drive->status = ExplorationStatus::time_limit;
   const ReproductionTable made = table();
   EXPECT_EQ(row(made, "cafe", "2D+grid", 0.5).gain, std::nullopt) << "nothing to compare with";
   EXPECT_EQ(row(made, "cafe", "2D+auto", 0.5).remark, "missing");
@@ -155,9 +154,9 @@ TEST_F(Reproduction, HolesAreNamed) {
 TEST_F(Reproduction, PredictionsArePooledOverStartsAndEnvironments) {
   // Steps (x, y): (1, 1), (2, 3) in the apartment and (3, 2) in the cafe.
   at("apartment-1-auto-0.5").episode = episode(1, 1);
-  at("apartment-1-auto-0.5").episode->prediction = {2, 3, 4, 5, 10, 7};
+  at("apartment-1-auto-0.5").episode->summary.prediction = {2, 3, 4, 5, 10, 7};
   at("cafe-2-auto-0.5").episode = episode(1, 1);
-  at("cafe-2-auto-0.5").episode->prediction = {1, 3, 2, 9, 4, 6};
+  at("cafe-2-auto-0.5").episode->summary.prediction = {1, 3, 2, 9, 4, 6};
   const ReproductionTable made = table();
   ASSERT_EQ(made.predictions.size(), 3U);
   const PredictionRow& all = made.predictions[0];
@@ -173,12 +172,12 @@ TEST_F(Reproduction, PredictionsArePooledOverStartsAndEnvironments) {
 }
 
 TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {
-  at("cafe-1-static-0.5").episode = episode(12345.4, 1000);
+  at("cafe-1-static-0.5").episode = episode(12345, 1000);
   at("cafe-1-grid-0.5").episode = episode(1234567, 987.654);
-  at("cafe-1-grid-0.5").episode->prediction = {2, 3, 4, 5, 10, 7};
+  at("cafe-1-grid-0.5").episode->summary.prediction = {2, 3, 4, 5, 10, 7};
   const std::string markdown = to_markdown(table());
   EXPECT_THAT(markdown, HasSubstr("| 2D (t=0.5) | 1 | 12,345 |  | 1,000 |  |  | 100 | 123 | 10 |"));
-  EXPECT_THAT(markdown, HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.22% | 988 | \u221212 | "
+  EXPECT_THAT(markdown, HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.54% | 988 | \u221212 | "
                                   "\u22121.23% | 100 |"));
   EXPECT_THAT(markdown, HasSubstr("| 49.50% | 56.35% | 227 | 245 |\n"));
   EXPECT_THAT(markdown, HasSubstr("| all | 2D+grid (t=0.5) | 2 | 1.000 | \u221225.00% |\n"));

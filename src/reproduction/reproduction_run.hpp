@@ -1,0 +1,29 @@
+// Runs the paper's experiment, into a folder where it goes on after a stop.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/coordinator.hpp"
+#include "reproduction/record.hpp"
+
+namespace nbvopt {
+
+/// Reads every world and notes its digest in the units that simulate it. Throws InputError when one
+/// cannot be read.
+void read_worlds(std::span<Unit> units);
+
+/// Runs the units without a result, whose worlds must have been read, on processes that the command
+/// starts, of one thread each. Every record is in the folder's file before the next; then
+/// `on_record` is told of it. Throws InputError when the folder is used by another run or cannot be
+/// written, and as experiment::run_units().
+experiment::RunResult run_reproduction(std::span<const Unit> units,
+                                       const ReproductionFolder& folder,
+                                       const std::vector<std::string>& worker_command,
+                                       std::size_t workers,
+                                       const std::function<void(const Json& record)>& on_record);
+
+}  // namespace nbvopt

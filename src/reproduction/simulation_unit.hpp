@@ -1,0 +1,68 @@
+// What one unit of the experiment simulates: a drive that is recorded, or an episode on a drive.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "core/json.hpp"
+#include "nbvopt/sim/world.hpp"
+
+namespace nbvopt {
+
+/// A base pose in the plane of the map.
+struct StartPose {
+  double x_m;
+  double y_m;
+  double yaw_rad;
+};
+
+/// An exploration.
+struct DriveSetting {
+  StartPose start;
+  double lidar_range_m;   ///< where beams are cropped for the map in the plane
+  double duration_max_s;  ///< it ends then
+};
+
+/// The camera's mode in one episode and the time t that it may move for.
+struct EpisodeSetting {
+  std::string mode;  ///< as make_camera_mode() takes it
+  double motion_time_s;
+
+  bool operator==(const EpisodeSetting&) const = default;
+};
+
+/// A world as it was when it was read.
+struct WorldSource {
+  std::filesystem::path file;
+  WorldOptions options;
+  std::string digest;  ///< of what is built from it; empty: not read yet
+};
+
+struct SimulationUnit {
+  WorldSource world;
+  std::filesystem::path trajectory;  ///< that a drive records and an episode replays
+  std::uint64_t seed = 1;
+  std::variant<DriveSetting, EpisodeSetting> setting;
+};
+
+Json setting_json(const SimulationUnit& simulation);
+
+/// As its worker gets it.
+Json to_json(const SimulationUnit& simulation);
+
+/// The way back. Throws InputError that says what is wrong.
+SimulationUnit simulation_unit_of(const Json& json);
+
+/// The command that does the same with `nbvopt simulate`, as a shell would take it; its summary
+/// goes to that file.
+std::string command_line(const SimulationUnit& simulation, const std::filesystem::path& summary);
+
+/// Reads the world. Throws InputError as nbvopt's read_world() does.
+World read_world(const WorldSource& source);
+
+/// That of all that a simulation sees of a world.
+std::string world_digest(const World& world);
+
+}  // namespace nbvopt
