@@ -61,7 +61,9 @@ Study study_of(const Json& json) {
   const auto search_of_named = [](const Json& named) {
     return NamedSearch{named.at("label").get<std::string>(), search_of(named.at("search"))};
   };
-  const auto mode_of_name = [](const Json& name) { return mode_of(name.get<std::string>()); };
+  const auto mode_of_name = [](const Json& name) {
+    return mode_of(name.get<std::string>(), "unit");
+  };
   return {.name = json.at("study").get<std::string>(),
           .robot = {},
           .maps = list_of<StudyMap>(json.at("maps"), map_of),

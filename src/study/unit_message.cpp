@@ -37,7 +37,7 @@ WorkUnit read_unit(const Json& json) {
                 .robot = json.at("robot").get<std::string>(),
                 .start = start_of(json.at("start")),
                 .motion_time_s = json.at("motion_time_s").get<double>(),
-                .mode = mode_of(json.at("uncertainty_mode").get<std::string>()),
+                .mode = mode_of(json.at("uncertainty_mode").get<std::string>(), "unit"),
                 .search = {},
                 .budget = {},
                 .seed = 1};
@@ -86,11 +86,11 @@ Budget budget_of(const Json& json) {
           .time_limit_ms = limit_of<double>(json.at("time_limit_ms"))};
 }
 
-UncertaintyMode mode_of(const std::string& name) {
+UncertaintyMode mode_of(const std::string& name, const std::string& place) {
   UncertaintyMode mode{};
   const std::string demand = store(name, mode);
   if (!demand.empty()) {
-    throw InputError("unit: sensor.uncertainty_mode is '" + name + "', it must be " + demand);
+    throw InputError(place + ": sensor.uncertainty_mode is '" + name + "', it must be " + demand);
   }
   return mode;
 }

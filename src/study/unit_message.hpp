@@ -38,7 +38,8 @@ Json to_json(const Budget& budget);
 Start start_of(const Json& json);
 StudySearch search_of(const Json& json);
 Budget budget_of(const Json& json);
-UncertaintyMode mode_of(const std::string& name);
+/// `place` stands for the name in messages.
+UncertaintyMode mode_of(const std::string& name, const std::string& place);
 
 experiment::Unit message_of(const WorkUnit& unit);
 

@@ -3,7 +3,6 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "core/number.hpp"
@@ -12,10 +11,10 @@
 #include "fields/yaml.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
-#include "nbvopt/planner/robot_fields.hpp"
 #include "study/spec/spec_block.hpp"
 #include "study/spec/spec_searches.hpp"
 #include "study/spec/start_sampling.hpp"
+#include "study/unit_message.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -106,10 +105,7 @@ void SpecReader::read_lists() {
   }
   if (const auto modes = spec_.find("uncertainty_modes")) {
     for (const SpecValue& mode : modes->elements()) {
-      SensorOptions sensor;
-      const std::array setting{FieldSetting{"uncertainty_mode", mode.text()}};
-      set_fields(sensor, setting, mode.place());
-      append_once(study().modes, sensor.uncertainty_mode, mode);
+      append_once(study().modes, mode_of(mode.text(), mode.place()), mode);
     }
   } else {
     study().modes = {study().robot.sensor.uncertainty_mode};
