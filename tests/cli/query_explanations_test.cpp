@@ -79,7 +79,11 @@ TEST_F(CommandLine, QueryWritesTheWholeLandscapeWhateverStopsTheSearch) {
   nbvopt_json(
       json_query(map_file, {"--max-evals", "1", "--time-limit-ms", "1e-6", "--landscape", file}));
   const json landscape = json::parse(std::ifstream(file));
+  ASSERT_GT(landscape["tilt"].size(), 1U);
+  ASSERT_GT(landscape["pan"].size(), 1U);
+  ASSERT_EQ(landscape["gain"].size(), landscape["tilt"].size());
   for (const json& row : landscape["gain"]) {
+    EXPECT_EQ(row.size(), landscape["pan"].size());
     for (const json& gain : row) EXPECT_TRUE(gain.is_number());
   }
 }

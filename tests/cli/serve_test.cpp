@@ -1,6 +1,7 @@
 // nbvopt serve, as its users start, stop and kill it.
 #include <sys/stat.h>
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
@@ -10,6 +11,7 @@
 #include "server/snapshot_file.hpp"
 #include "support/paths.hpp"
 #include "support/sanitizers.hpp"
+#include "support/wait_for_search.hpp"
 #include "support/wait_until.hpp"
 
 namespace nbvopt::test {
@@ -41,14 +43,19 @@ TEST_F(Serve, EndsOnSignalsWithItsMapSaved) {
 
 TEST_F(Serve, CancelsWhatIsInFlightWhenItEnds) {
   Served served(server, server.arguments({"--max-compute-ms", "1e9"}));
+  std::atomic<bool> has_answered = false;
   std::jthread caller([&] {
-    PlannerClient client(served.address());
+    PlannerClient client(served.address(), {}, 10min);
     PlanRequest request = small_request();
-    request.stop.max_evaluations = 1'000'000'000'000;
+    request.stop.max_evaluations = 1'000'000'000'000;  // days
     EXPECT_THROW(client.plan(request, {.solver = "random"}), ServerError);
+    has_answered = true;
   });
-  std::this_thread::sleep_for(100ms);
+  EXPECT_TRUE(wait_for_search(served.process().id()));
+  EXPECT_FALSE(has_answered);
   served.process().send(SIGTERM);
+  EXPECT_TRUE(wait_until([&] { return served.process().has_ended(); }));
+  served.process().send(SIGKILL);  // or the caller would wait for days
   EXPECT_EQ(served.process().wait(), 0);
 }
 

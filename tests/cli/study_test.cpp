@@ -1,14 +1,17 @@
 // nbvopt study as its users run it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <random>
 #include <thread>
 
 #include "cli/command_line.hpp"
+#include "core/text_file.hpp"
 #include "support/background_process.hpp"
 #include "support/paths.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -43,6 +46,19 @@ class StudyCommand : public testing::Test {
       result[unit] = record;
     }
     return result;
+  }
+
+  std::uintmax_t record_bytes(const std::string& out) const {
+    std::error_code not_there_yet;
+    const std::uintmax_t size =
+        std::filesystem::file_size(folder / out + "/records.jsonl", not_there_yet);
+    return not_there_yet ? 0 : size;
+  }
+
+  /// The records that are known to be there, whatever stands behind them.
+  std::size_t whole_lines(const std::string& out) const {
+    const std::string text = read_text_file(folder / out + "/records.jsonl");
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
   }
 
   const TemporaryFolder folder;
@@ -82,26 +98,44 @@ TEST_F(StudyCommand, RefusesABadSpecBeforeAnythingRuns) {
 }
 
 TEST_F(StudyCommand, SurvivesTwentyKills) {
+  constexpr std::size_t kUnits = 1152;
   const std::string file = spec("seeds: [1, 2, 3, 4]\n");
   ASSERT_EQ(nbvopt_run(run_arguments("whole", file)).exit_code, 0);
+  ASSERT_EQ(records("whole").size(), kUnits);
   std::mt19937_64 random(1);
+  std::size_t done = 0;
   for (int kill = 0; kill < 20; ++kill) {
+    const std::uintmax_t size = record_bytes("killed");
     BackgroundProcess process(cli_program(), run_arguments("killed", file), folder / "killed.log");
-    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
+    if (kill % 5 == 4) {  // while it starts, or soon after
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 30));
+    } else {
+      // Up to some ten records later.
+      const std::uintmax_t more = 500 + random() % 10'000;
+      ASSERT_TRUE(wait_until([&] { return record_bytes("killed") > size + more; }));
+    }
     process.send(SIGKILL);
-    process.wait();
+    ASSERT_EQ(process.wait(), -1) << "it ended before it was killed";
+    const std::size_t done_before = done;
+    done = whole_lines("killed");
+    EXPECT_LT(done, kUnits);
+    EXPECT_GE(done, done_before + (kill % 5 == 4 ? 0 : 1));
   }
-  ASSERT_EQ(nbvopt_run(run_arguments("killed", file)).exit_code, 0);
+  const ProcessResult rest = nbvopt_run(run_arguments("killed", file));
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_THAT(rest.out, HasSubstr("\n" + std::to_string(done) + " done (0 failed), "));
   EXPECT_EQ(records("killed"), records("whole"));
 }
 
 TEST_F(StudyCommand, AStopKeepsWhatWasDone) {
   const std::string file = spec("seeds: [1, 2, 3, 4, 5, 6]\n");
   BackgroundProcess process(cli_program(), run_arguments("out", file), folder / "stopped.log");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(wait_until([&] { return record_bytes("out") > 0; }));
   process.send(SIGINT);
   EXPECT_EQ(process.wait(), -1) << "it ends by the signal";
   const std::size_t done = records("out").size();
+  EXPECT_GT(done, 0U);
+  EXPECT_LT(done, 1728U);
   const ProcessResult rest = nbvopt_run(run_arguments("out", file));
   EXPECT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_THAT(rest.out, HasSubstr("\n" + std::to_string(done) + " done (0 failed), "));

@@ -9,6 +9,7 @@
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
 #include "support/paths.hpp"
+#include "support/wait_for_search.hpp"
 #include "support/wait_until.hpp"
 
 namespace nbvopt {
@@ -58,10 +59,16 @@ TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfAPlanStream) {
   for (int i = 0; i < 20; ++i) {
     grpc::ClientContext context;
     const auto stream = stub->PlanStream(&context);
+    stream->Write(to_message(test::small_request()));
+    v1::PlanReply reply;
+    EXPECT_TRUE(stream->Read(&reply));
     stream->Write(i % 2 == 0 ? test::RunningServer::long_request()
                              : to_message(test::small_request()));
+    if (i % 4 == 0) {
+      EXPECT_TRUE(test::wait_for_search());
+    }
     context.TryCancel();
-    stream->Finish();
+    EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }
 }
 
@@ -149,7 +156,7 @@ TEST_F(ServerFaults, CancelledSearchesEnd) {
     grpc::ClientContext context;
     v1::PlanReply reply;
     std::thread canceller([&] {
-      std::this_thread::sleep_for(20ms);
+      EXPECT_TRUE(test::wait_for_search());
       context.TryCancel();
     });
     EXPECT_EQ(stub->Plan(&context, test::RunningServer::long_request(), &reply).error_code(),
@@ -275,7 +282,7 @@ TEST_F(ServerFaults, StopsInTheMiddleOfCalls) {
       EXPECT_FALSE(other_stub->Plan(&context, test::RunningServer::long_request(), &reply).ok());
     });
   }
-  std::this_thread::sleep_for(50ms);
+  EXPECT_TRUE(test::wait_for_search());
   other.client.insert_scan(test::small_scan(), test::scan_pose(0));
   other.server.stop();
   for (std::thread& call : calls) call.join();

@@ -49,6 +49,12 @@ std::string BackgroundProcess::read_line() {
 
 void BackgroundProcess::send(int signal) const { ::kill(pid_, signal); }
 
+bool BackgroundProcess::has_ended() const {
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT);
+  return info.si_pid == pid_;
+}
+
 int BackgroundProcess::wait() {
   int status = 0;
   ::waitpid(pid_, &status, 0);

@@ -24,6 +24,9 @@ class BackgroundProcess {
   pid_t id() const { return pid_; }
   void send(int signal) const;
 
+  /// Whether it is over; wait() tells how.
+  bool has_ended() const;
+
   /// Waits for its end; the exit code, -1 when a signal ended it.
   int wait();
 
