@@ -318,7 +318,7 @@ class SurrogateTest(BindingsTest):
                 self.assert_refused(message, self.make, **options)
         make = nbvopt.Surrogate
         situation = self.office, self.robot
-        self.assert_refused(".*motion time.* -1 .*", make, *situation, BASE, JOINTS, -1.0)
+        self.assert_refused(".*motion_time_s.* -1 .*", make, *situation, BASE, JOINTS, -1.0)
         self.assert_refused("tilt is 2 rad.*", make, *situation, BASE, (0, 2, 0.4), 1.0)
         self.assert_refused("joints has the shape .*", make, *situation, BASE, [JOINTS], 1.0)
         surrogate = self.make()
