@@ -98,13 +98,16 @@ class Build:
                 stdout=subprocess.PIPE,
                 stderr=log,
             )
-            ready = server.stdout.readline()
-            if ready:
-                outcome = self.run_commands(check, folder)
-                server.send_signal(signal.SIGTERM)
-            else:
-                outcome = Outcome(fault="does not start its server")
-            code = server.wait(TIMEOUT_S)
+            try:
+                ready = server.stdout.readline()
+                if ready:
+                    outcome = self.run_commands(check, folder)
+                    server.send_signal(signal.SIGTERM)
+                else:
+                    outcome = Outcome(fault="does not start its server")
+                code = server.wait(TIMEOUT_S)
+            finally:
+                server.kill()  # if need be
         outcome.outputs["server, exit code"] = str(code).encode()
         self.gather_files(check, folder, outcome)
         return outcome
