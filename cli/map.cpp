@@ -37,7 +37,7 @@ void run_info(const InfoOptions& options) {
 }
 
 void run_convert(const ConvertOptions& options) {
-  const MapFormat format = output_format(options.format, options.output_file);
+  const MapFormat format = map_format(options.format, options.output_file);
   const UncertaintyMap map = read_map(options.input_file);
   write_map(map, options.output_file, format);
   if (options.json) {

@@ -11,6 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan_file.hpp"
 #include "nbvopt/planner/robot.hpp"
 
@@ -46,7 +47,7 @@ UncertaintyMap map_of(const InsertOptions& options) {
 void run_insert(InsertOptions& options) {
   const std::string& output_file =
       options.output_file.empty() ? options.map_file : options.output_file;
-  const MapFormat format = output_format("", output_file);
+  const MapFormat format = map_format("", output_file);
   require_writable(output_file);
   if (format == MapFormat::bt) {
     print_message("warning: " + output_file + " cannot keep the uncertainty, give --out FILE.ot");

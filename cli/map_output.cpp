@@ -2,11 +2,9 @@
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
+#include <utility>
 
 #include "core/number.hpp"
-#include "map/map_format_names.hpp"
-#include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 namespace {
@@ -27,21 +25,6 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> corners_m(const Lattice& lattice, co
 Json point_json(const Eigen::Vector3d& p_map_m) { return {p_map_m.x(), p_map_m.y(), p_map_m.z()}; }
 
 }  // namespace
-
-MapFormat output_format(const std::string& name, const std::string& file) {
-  std::string wanted = name;
-  if (wanted.empty()) {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension.empty() || extension == ".ot") {
-      wanted = to_string(MapFormat::uncertainty_ot);
-    } else {
-      wanted = extension.substr(1);
-    }
-  }
-  if (const auto format = enum_value<MapFormat>(wanted)) return *format;
-  throw UsageError(file + ": the extension tells no format, end it in .ot, .bt or .ply, or give " +
-                   "--format");
-}
 
 Json map_json(const UncertaintyMap& map) {
   const MapCounts counts = map.counts();

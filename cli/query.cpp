@@ -118,7 +118,7 @@ void write_explanations(const QueryOptions& options, const ViewPlanner& planner,
   }
   if (!wants_landscape(options)) return;
   const Landscape landscape = planner.landscape(result);
-  const std::vector<double> pans_rad = candidate_pans(options.solver, result.box);
+  const std::vector<double> pans_rad = candidate_pans(result.box, options.solver.step_pan_rad);
   if (!options.landscape_file.empty()) {
     write_file_atomically(options.landscape_file,
                           to_json(landscape, result, pans_rad).dump() + '\n');

@@ -5,7 +5,6 @@
 #include "cli/options/arguments.hpp"
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/solver/grid_coordinates.hpp"
 #include "nbvopt/solver/strategy.hpp"
 
 namespace nbvopt {
@@ -46,13 +45,6 @@ Search search_of(const SolverArguments& arguments) {
   return {.solver = arguments.solver,
           .stages = named_stages(arguments.global, arguments.local, arguments.polish),
           .grid_steps = {arguments.step_pan_rad, arguments.step_tilt_rad, arguments.step_height_m}};
-}
-
-std::vector<double> candidate_pans(const SolverArguments& arguments, const JointBox& box) {
-  constexpr double kMostToDraw = 200.0;
-  const double width_rad = box.max[0] - box.min[0];
-  if (arguments.step_pan_rad <= width_rad / kMostToDraw) return {};
-  return grid_coordinates(box.min[0], box.max[0], arguments.step_pan_rad);
 }
 
 }  // namespace nbvopt

@@ -27,8 +27,4 @@ void add_solver_arguments(CLI::App& app, SolverArguments& arguments);
 /// does.
 Search search_of(const SolverArguments& arguments);
 
-/// The pans of the paper's grid with the step that was asked for (Algorithm 2); none when they lie
-/// too close to be told apart.
-std::vector<double> candidate_pans(const SolverArguments& arguments, const JointBox& box);
-
 }  // namespace nbvopt

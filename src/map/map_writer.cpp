@@ -5,7 +5,6 @@
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
 #include "map/map_access.hpp"
-#include "map/map_format_names.hpp"
 #include "map/map_header.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
@@ -151,8 +150,6 @@ std::string ply_file(const UncertaintyMap& map) {
 }
 
 }  // namespace
-
-std::string to_string(MapFormat value) { return std::string(enum_name(value)); }
 
 std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
   switch (format) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nbvopt/solver/grid_coordinates.hpp"
+
 namespace nbvopt {
 namespace {
 
@@ -38,6 +40,13 @@ std::vector<TracePoint> improvements(const std::vector<TracePoint>& trace) {
     if (path.empty() || point.gain > path.back().gain) path.push_back(point);
   }
   return path;
+}
+
+std::vector<double> candidate_pans(const JointBox& box, double step_rad) {
+  constexpr double kMostToDraw = 200.0;
+  const double width_rad = box.max[0] - box.min[0];
+  if (step_rad <= width_rad / kMostToDraw) return {};
+  return grid_coordinates(box.min[0], box.max[0], step_rad);
 }
 
 }  // namespace nbvopt

@@ -369,5 +369,17 @@ TEST_F(SharedMaps, AreTheSameBytesAfterReadingAndWriting) {
   }
 }
 
+TEST(MapFormats, GoByNameOrElseByExtension) {
+  EXPECT_EQ(map_format("", "a.ot"), MapFormat::uncertainty_ot);
+  EXPECT_EQ(map_format("", "a"), MapFormat::uncertainty_ot);
+  EXPECT_EQ(map_format("", "a.b/c.bt"), MapFormat::bt);
+  EXPECT_EQ(map_format("", "a.ply"), MapFormat::colour_ply);
+  EXPECT_EQ(map_format("colour-ot", "a.ply"), MapFormat::colour_ot);
+  EXPECT_THAT(test::message_of<UsageError>([] { map_format("", "a.txt"); }),
+              HasSubstr("a.txt: the extension tells no format"));
+  EXPECT_THAT(test::message_of<UsageError>([] { map_format("octo", "a.ot"); }),
+              HasSubstr("map format 'octo' is not known"));
+}
+
 }  // namespace
 }  // namespace nbvopt

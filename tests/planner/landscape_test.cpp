@@ -7,7 +7,9 @@
 namespace nbvopt {
 namespace {
 
+using testing::DoubleEq;
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 /// A gain of the direction of view and the height alone.
 class Directions final : public ViewEvaluator {
@@ -81,6 +83,13 @@ TEST(Improvements, AreTheExactViewsBetterThanAllBefore) {
   ASSERT_EQ(path.size(), 2U);
   EXPECT_EQ(path[0].gain, 3.0);
   EXPECT_EQ(path[1].gain, 4.0);
+}
+
+TEST(CandidatePans, AreTheGridsUntilTheyLieTooClose) {
+  const JointBox box{{-1.0, 0.0, 0.4}, {1.0, 0.0, 0.4}};
+  EXPECT_THAT(candidate_pans(box, 0.8), ElementsAre(DoubleEq(-1.0), DoubleEq(-0.2), DoubleEq(0.6)));
+  EXPECT_THAT(candidate_pans(box, 0.0), IsEmpty());
+  EXPECT_THAT(candidate_pans(box, 0.01), IsEmpty());
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ enum class MapFormat {
 };
 std::string to_string(MapFormat format);
 
+/// The format of that name: uncertainty-ot, bt, colour-ot or ply. Where it is empty, that of the
+/// file's extension, .ot being uncertainty-ot. Throws UsageError when there is none.
+MapFormat map_format(const std::string& name, const std::filesystem::path& path);
+
 /// Reads a map. Throws InputError when the file is missing, empty, truncated, damaged, or of a
 /// tree type that is not known; the message names the file.
 UncertaintyMap read_map(const std::filesystem::path& path);

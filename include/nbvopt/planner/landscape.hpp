@@ -24,4 +24,7 @@ struct Landscape {
 /// The successive best views of a search: what was better than all before.
 std::vector<TracePoint> improvements(const std::vector<TracePoint>& trace);
 
+/// The pans of the paper's grid (Algorithm 2); none where they lie too close to be told apart.
+std::vector<double> candidate_pans(const JointBox& box, double step_rad);
+
 }  // namespace nbvopt
