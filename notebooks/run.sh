@@ -1,8 +1,8 @@
 #!/bin/bash
 # Runs a notebook without a screen: notebooks/run.sh NAME BUILD OUT
 #
-# NAME: of the notebook, such as 01_one_query. BUILD: a build with the tool and the Python module.
-# OUT: the folder for the files that the notebook reads, its pictures, and its copy with outputs.
+# NAME: of the notebook, such as 01_one_query. BUILD: a build with the Python module.
+# OUT: the folder for its pictures and its copy with outputs.
 # Exits with 77 where Debian's jupyter-nbconvert, its kernel or matplotlib is not installed.
 set -euo pipefail
 name=$1
@@ -10,7 +10,6 @@ mkdir -p "$3"
 build=$(realpath "$2")
 out=$(realpath "$3")
 cd "$(dirname "$0")/.."
-nbvopt=$build/cli/nbvopt
 python=/usr/bin/python3 # the one that the module is built for
 
 if ! $python -c 'import ipykernel, matplotlib, matplotlib_inline, nbconvert' 2>/dev/null; then
@@ -20,16 +19,11 @@ fi
 
 # The files that the notebook reads.
 case $name in
-  01_one_query)
-    "$nbvopt" query datasets/office_partial.ot --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 \
-      --motion-time 1 --json-out "$out/answer.json" --trace "$out/trace.jsonl" \
-      --landscape "$out/landscape.json" >/dev/null
-    ;;
   02_solver_study) # reads a report: the study of record's unless another is named
     NBVOPT_STUDY_REPORT=$(realpath "${NBVOPT_STUDY_REPORT:-docs/study/searches}")
     export NBVOPT_STUDY_REPORT
     ;;
-  03_surrogate) ;; # asks the module only
+  01_one_query | 03_surrogate) ;; # ask the module only
   search_quality)
     [ -f out/search_quality.jsonl ] ||
       { echo "out/search_quality.jsonl is missing: run make bench-search first" >&2; exit 1; }

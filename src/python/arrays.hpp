@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "nbvopt/core/transform.hpp"
+#include "nbvopt/map/scan.hpp"
 #include "nbvopt/mast/mast.hpp"
 
 namespace nbvopt::python {
 
 namespace py = pybind11;
+
+/// T_map_sensor, from a (4, 4) array that is a finite rigid transform.
+Transform pose_from(const py::object& pose, const std::string& name);
 
 /// T_map_sensor of each view, from an (N, 4, 4) array of finite rigid transforms.
 std::vector<Transform> poses_from(const py::object& poses);
@@ -26,8 +30,18 @@ JointPosition joint_position_from(const py::object& joints);
 /// T_map_base, from (x, y, yaw) or (x, y, z, yaw).
 Transform base_from(const py::object& base);
 
+/// Finite numbers, from a sequence.
+std::vector<double> vector_from(const py::object& values, const std::string& name);
+
+/// Points in the plane, from an (N, 2) array of finite numbers.
+std::vector<Eigen::Vector2d> plane_points_from(const py::object& points, const std::string& name);
+
 /// Three finite numbers, from a sequence.
 Eigen::Vector3d vector3_from(const py::object& values, const std::string& name);
+
+/// A scan, from (N, 3) arrays: points and directions of numbers, finite or not, colours of uint8.
+/// The last two may be None.
+Scan scan_from(const py::object& points, const py::object& no_returns, const py::object& colours);
 
 /// An uninitialised array of doubles.
 py::array_t<double> make_array(std::vector<py::ssize_t> shape);
@@ -46,5 +60,6 @@ py::array_t<double> to_array(const std::vector<Transform>& all);  ///< (N, 4, 4)
 py::array_t<double> to_array(const Transform& T);                 ///< (4, 4)
 py::array_t<double> to_array(const JointBox& box);                ///< (2, 3): lowest, highest
 py::array_t<double> to_array(const std::vector<Eigen::Vector3d>& rows);  ///< (N, 3)
+py::array_t<float> to_array(const std::vector<Eigen::Vector3f>& rows);   ///< (N, 3)
 
 }  // namespace nbvopt::python

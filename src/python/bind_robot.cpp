@@ -3,13 +3,30 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "nbvopt/planner/plan.hpp"
 #include "nbvopt/planner/robot.hpp"
+#include "python/arrays.hpp"
 #include "python/bindings.hpp"
 
 namespace nbvopt::python {
 
-namespace py = pybind11;
+namespace {
+
+py::array_t<double> sensor_poses(const Robot& robot, const py::object& base,
+                                 const py::object& joints) {
+  PlanRequest request;
+  request.T_map_base = base_from(base);
+  const Mast mast(robot.mast);
+  std::vector<Transform> poses;
+  for (const JointPosition& q : joint_positions_from(joints)) {
+    poses.push_back(T_map_sensor(request, mast, q));
+  }
+  return to_array(poses);
+}
+
+}  // namespace
 
 void bind_robot(py::module_& module) {
   py::class_<Robot>(module, "Robot",
@@ -43,6 +60,10 @@ void bind_robot(py::module_& module) {
       .def("__repr__", [](const Robot& robot) {
         return robot == Robot{} ? "Robot()" : "Robot.parse('''" + to_yaml(robot) + "''')";
       });
+  module.def(
+      "sensor_poses", &sensor_poses, py::arg("robot"), py::arg("base"), py::arg("joints"),
+      "(N, 4, 4) T_map_sensor of a robot whose base stands at `base`, (x, y, yaw) or (x, y, "
+      "z, yaw), with its joints at `joints`, (N, 3): pan, tilt, height. Limits do not bind.");
 }
 
 }  // namespace nbvopt::python

@@ -18,9 +18,9 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetString(PyExc_ValueError, error.what());
     }
   });
-  nbvopt::python::bind_map(module);
   nbvopt::python::bind_robot(module);
-  nbvopt::python::bind_views(module);
+  nbvopt::python::bind_map(module);
   nbvopt::python::bind_surrogate(module);
-  nbvopt::python::bind_query(module);
+  nbvopt::python::bind_result(module);
+  nbvopt::python::bind_planner(module);
 }

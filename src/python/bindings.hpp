@@ -6,10 +6,10 @@
 
 namespace nbvopt::python {
 
-void bind_map(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
-void bind_views(pybind11::module_& module);
+void bind_map(pybind11::module_& module);
 void bind_surrogate(pybind11::module_& module);
-void bind_query(pybind11::module_& module);
+void bind_result(pybind11::module_& module);
+void bind_planner(pybind11::module_& module);
 
 }  // namespace nbvopt::python

@@ -5,22 +5,19 @@
 
 import gc
 import json
-import os
 import pathlib
 import re
-import subprocess
 import tempfile
 import threading
 import time
 import unittest
+import zlib
 
 import numpy as np
 
 import nbvopt
+from support import BASE, JOINTS, OFFICE, ModuleTest, cli_json, gains_of, run_cli
 
-OFFICE = str(pathlib.Path(__file__).resolve().parents[2] / "datasets" / "office_partial.ot")
-BASE = (1.9, 2.6, 1.57)
-JOINTS = (0.0, 0.0, 0.4)
 # Views from several places of the office: base, then pan, tilt and height.
 VIEWS = [
     ((1.9, 2.6, 1.57), (0.0, -0.2, 0.4)),
@@ -29,11 +26,22 @@ VIEWS = [
     ((2.0, 4.4, 3.0), (0.6, -0.79, 0.18)),
 ]
 
+# Level, at a height of 0.42 m, looking along the map's x.
+FORWARD = np.array([[0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0.42], [0, 0, 0, 1.0]])
 
-def run_cli(*arguments: str, text: str = "") -> dict:
-    command = [os.environ["NBVOPT_CLI"], *arguments]
-    done = subprocess.run(command, input=text, capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+
+def image_rows(png: bytes) -> list:
+    """The rows of a picture of three bytes a pixel, as filtered: equal where they and the rows
+    before them are."""
+    width = int.from_bytes(png[16:20], "big")
+    data, at = b"", 8
+    while at < len(png):
+        size, kind = int.from_bytes(png[at : at + 4], "big"), png[at + 4 : at + 8]
+        if kind == b"IDAT":
+            data += png[at + 8 : at + 8 + size]
+        at += 12 + size
+    pixels, row = zlib.decompress(data), 1 + 3 * width
+    return [pixels[i : i + row] for i in range(0, len(pixels), row)]
 
 
 def cli_evaluate(*arguments: str, sensor: dict = {}) -> list:
@@ -48,16 +56,16 @@ def cli_evaluate(*arguments: str, sensor: dict = {}) -> list:
         for base, (pan, tilt, height) in VIEWS
     ]
     poses = json.dumps({"sensor": sensor, "cases": cases})
-    return run_cli("evaluate", OFFICE, "--poses", "-", *arguments, text=poses)["cases"]
+    return cli_json("evaluate", OFFICE, "--poses", "-", *arguments, text=poses)["cases"]
 
 
 def cli_query(*arguments: str) -> dict:
     base = ",".join(map(str, BASE))
     situation = ["--base", base, "--pan", "0", "--tilt", "0", "--height", "0.4"]
-    return run_cli("query", OFFICE, *situation, *arguments, "--json")
+    return cli_json("query", OFFICE, *situation, *arguments, "--json")
 
 
-class BindingsTest(unittest.TestCase):
+class BindingsTest(ModuleTest):
     @classmethod
     def setUpClass(cls):
         cls.office = nbvopt.Map(OFFICE)
@@ -66,17 +74,10 @@ class BindingsTest(unittest.TestCase):
             [nbvopt.sensor_poses(cls.robot, base, [joints]) for base, joints in VIEWS]
         )
 
-    def assert_refused(self, message: str, call, *arguments, **named):
-        """The whole message, one line; a regular expression."""
-        with self.assertRaises(ValueError) as caught:
-            call(*arguments, **named)
-        self.assertRegex(str(caught.exception), f"^{message}$")
-
 
 class MapTest(BindingsTest):
     def test_tells_what_map_info_tells(self):
-        command = [os.environ["NBVOPT_CLI"], "map", "info", OFFICE]
-        info = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        info = run_cli("map", "info", OFFICE)
         counts = self.office.counts()
         self.assertEqual(self.office.resolution_m, 0.05)
         self.assertIn(f"occupied voxels    {counts.occupied_voxels}\n", info)
@@ -116,17 +117,10 @@ class MapTest(BindingsTest):
         self.assertEqual(layer.uncertainty.shape, layer.states.shape)
 
     def test_a_scan_of_one_point_is_one_voxel_of_its_slice(self):
-        with tempfile.TemporaryDirectory() as folder:
-            scan, made = pathlib.Path(folder, "scan.ply"), pathlib.Path(folder, "made.ot")
-            scan.write_text(
-                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                "property float z\nend_header\n0.22 0 1.02\n"
-            )
-            # At (0, 0, 0.42), looking along the map's x: the point is at (1.02, -0.22, 0.42).
-            pose = "0,0,0.42,-0.5,0.5,-0.5,0.5"
-            command = [os.environ["NBVOPT_CLI"], "map", "insert", made, scan, "--pose", pose]
-            subprocess.run([*command, "--create", "0.1"], capture_output=True, check=True)
-            layer = nbvopt.Map(made).slice(0.42)
+        made = nbvopt.Map(resolution_m=0.1)
+        # Looking along the map's x: the point is at (1.02, -0.22, 0.42).
+        made.insert([[0.22, 0, 1.02]], FORWARD)
+        layer = made.slice(0.42)
         ((row, column),) = np.argwhere(layer.states == 2)
         left, _, bottom, _ = layer.extent_m
         self.assertAlmostEqual(left + (column + 0.5) * 0.1, 1.05)
@@ -138,9 +132,125 @@ class MapTest(BindingsTest):
 
     def test_refuses_what_is_no_map(self):
         self.assert_refused("/no/such/map.ot: .*", nbvopt.Map, "/no/such/map.ot")
+        self.assert_refused("give the path of a map, or .*", nbvopt.Map)
+        self.assert_refused("give the path .*", nbvopt.Map, OFFICE, resolution_m=0.1)
+        self.assert_refused(".*resolution.*", nbvopt.Map, resolution_m=0)
         self.assert_refused(f"{re.escape(__file__)}: .*", nbvopt.Map, __file__)
         self.assert_refused("z_m is nan, .*", self.office.slice, float("nan"))
         self.assert_refused(r"z_m is 1e\+06, .*", self.office.slice, 1e6)
+
+
+class InsertTest(BindingsTest):
+    """A scan of a wall two metres ahead with a hole in it, and a point that is too near."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        x, y = np.meshgrid(np.arange(-0.8, 0.8, 0.02), np.arange(-0.6, 0.6, 0.02))
+        wall = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, 2.0)])
+        is_hole = (np.abs(wall[:, 0]) < 0.1) & (np.abs(wall[:, 1]) < 0.1)
+        self.points = np.vstack([wall[~is_hole], [0.0, 0.0, 0.2]]).astype(np.float32)
+        self.directions = wall[is_hole]
+        self.colours = np.arange(self.points.size, dtype=np.uint8).reshape(-1, 3)
+
+    def test_is_what_map_insert_does(self):
+        lines = ["ply", "format ascii 1.0", f"element vertex {len(self.points)}"]
+        lines += [f"property float {axis}" for axis in "xyz"]
+        lines += [f"property uchar {colour}" for colour in ("red", "green", "blue")]
+        lines += ["end_header"]
+        for point, colour in zip(self.points, self.colours):
+            lines.append(" ".join(map(repr, point.tolist())) + " {} {} {}".format(*colour))
+        scan, theirs, ours = (self.folder / name for name in ("scan.ply", "theirs.ot", "ours.ot"))
+        scan.write_text("\n".join(lines) + "\n")
+        pose = "0,0,0.42,-0.5,0.5,-0.5,0.5"  # FORWARD
+        told = cli_json(
+            "map", "insert", OFFICE, scan, "--pose", pose, "--out", theirs, "--json"
+        )
+        office = nbvopt.Map(OFFICE)
+        before = office.counts()
+        done = office.insert(self.points, FORWARD, colours=self.colours)
+        for key in ("points_used", "rays_cleared", "points_ignored", "voxels_changed"):
+            self.assertEqual(getattr(done, key), told[key], key)
+        self.assertEqual(done.points_ignored, 1)
+        after = office.counts()
+        self.assertAlmostEqual(done.information_gained, after.information - before.information, 6)
+        self.assertEqual(
+            done.certain_voxels_gained, after.certain_voxels - before.certain_voxels
+        )
+        self.assertGreater(done.certain_voxels_gained, 100)
+        office.save(ours)
+        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+
+    def test_what_returns_nothing_is_clear(self):
+        made = nbvopt.Map(resolution_m=0.05)
+        self.assertIsNone(made.known_box_m)
+        made.insert(self.points, FORWARD)
+        free = made.counts().free_voxels
+        done = made.insert(np.empty((0, 3)), FORWARD, no_returns=self.directions)
+        self.assertEqual((done.points_used, done.rays_cleared), (0, len(self.directions)))
+        self.assertGreater(made.counts().free_voxels, free)
+
+    def test_the_robot_says_how_far_it_sees(self):
+        near = nbvopt.Robot.parse("sensor: {range_max_m: 1.5}")
+        made = nbvopt.Map(resolution_m=0.05)
+        self.assertEqual(made.insert(self.points, FORWARD, near).points_used, 0)
+        self.assertEqual(made.counts().occupied_voxels, 0)
+        planner = nbvopt.Planner(nbvopt.Map(resolution_m=0.05), near)
+        self.assertEqual(planner.insert(self.points, FORWARD).points_used, 0)
+
+    def test_the_next_plan_sees_it(self):
+        """As it would see the map that was saved, whoever inserted."""
+        office = nbvopt.Map(OFFICE)
+        planner = nbvopt.Planner(office)
+        situation = BASE, JOINTS, 1.0
+        before = planner.plan(*situation)
+        base = np.array([[0, 0, 1, 1.9], [-1, 0, 0, 2.6], [0, -1, 0, 0.4], [0, 0, 0, 1]])
+        for insert in (planner.insert, office.insert):
+            insert(self.points, base, colours=self.colours)
+            planner.insert(np.empty((0, 3)), before.T_map_sensor, no_returns=[[0.0, 0.0, 1.0]])
+            office.save(self.folder / "saved.ot")
+            saved = nbvopt.Planner(nbvopt.Map(self.folder / "saved.ot"))
+            look, expected = planner.plan(*situation), saved.plan(*situation)
+            self.assertEqual(look.joints.tolist(), expected.joints.tolist())
+            self.assertEqual(look.gain, expected.gain)
+            self.assertNotEqual(look.gain, before.gain)
+            self.assertEqual(
+                gains_of(planner)(self.poses).tolist(), gains_of(saved)(self.poses).tolist()
+            )
+
+    def test_formats_are_those_of_map_convert(self):
+        for extension, format in ((".bt", None), (".ply", None), (".ot", "colour-ot")):
+            with self.subTest(extension):
+                ours, theirs = (self.folder / (name + extension) for name in ("ours", "theirs"))
+                options = ["--format", format] if format else []
+                run_cli("map", "convert", OFFICE, theirs, *options)
+                self.office.save(ours, format)
+                self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+        self.assert_refused("map.txt: the extension .*", self.office.save, "map.txt")
+        self.assert_refused("map format 'octo' .*", self.office.save, "map.ot", "octo")
+        self.assert_refused("/no/such/map.ot: .*", self.office.save, "/no/such/map.ot")
+
+    def test_refuses_what_is_no_scan(self):
+        office = nbvopt.Map(OFFICE)
+        insert = office.insert
+        self.assert_refused(r"points has the shape \(3,\), .*", insert, [1, 2, 3], FORWARD)
+        self.assert_refused("points must be an array of numbers", insert, "points", FORWARD)
+        self.assert_refused(
+            r"no_returns has the shape \(0,\), .*", insert, self.points, FORWARD, no_returns=[]
+        )
+        for colours, message in (
+            (self.colours[:-1], ".* colours for .*"),
+            (self.colours.astype(float), "colours must be an array of uint8"),
+            (self.colours[:, :2], "colours has the shape .*"),
+        ):
+            self.assert_refused(message, insert, self.points, FORWARD, colours=colours)
+        self.assert_refused(r"T_map_sensor has the shape \(3, 3\), .*", insert, [[0, 0, 1]], np.eye(3))
+        self.assert_refused("T_map_sensor: .* a rotation", insert, self.points, FORWARD * [2, 2, 2, 1])
+        far = FORWARD.copy()
+        far[0, 3] = 1e6
+        self.assert_refused(".*lattice.*", insert, self.points, far)
+        self.assertEqual(office.counts().information, self.office.counts().information)
 
 
 class RobotTest(BindingsTest):
@@ -166,7 +276,7 @@ class RobotTest(BindingsTest):
         self.assert_refused("/no/robot.yaml: .*", nbvopt.Robot, "/no/robot.yaml")
 
 
-class EvaluatorTest(BindingsTest):
+class EvaluateTest(BindingsTest):
     def assert_same_views(self, views: dict, expected: list):
         self.assertEqual(len(expected), len(VIEWS))
         for key in expected[0]:
@@ -174,26 +284,23 @@ class EvaluatorTest(BindingsTest):
 
     def test_gains_are_those_of_the_command_line(self):
         expected = cli_evaluate()
-        evaluator = nbvopt.Evaluator(self.office, self.robot)
-        self.assert_same_views(evaluator.views(self.poses), expected)
-        self.assertEqual(
-            evaluator.gains(self.poses).tolist(), [case["gain"] for case in expected]
-        )
-        self.assertGreater(max(evaluator.gains(self.poses)), 1000.0)
+        views = nbvopt.Planner(self.office, self.robot).evaluate(self.poses)
+        self.assert_same_views(views, expected)
+        self.assertGreater(max(views["gain"]), 1000.0)
 
     def test_paper_code_is_that_of_the_command_line(self):
-        evaluator = nbvopt.Evaluator(self.office, evaluator="paper-code")
+        planner = nbvopt.Planner(self.office, evaluator="paper-code")
         expected = cli_evaluate("--evaluator", "paper-code")
-        self.assert_same_views(evaluator.views(self.poses), expected)
+        self.assert_same_views(planner.evaluate(self.poses), expected)
 
     def test_the_robot_counts(self):
         near = nbvopt.Robot.parse("sensor: {range_max_m: 2, counting: per_voxel}")
         expected = cli_evaluate(sensor={"range_max_m": 2, "counting": "per_voxel"})
-        self.assert_same_views(nbvopt.Evaluator(self.office, near).views(self.poses), expected)
+        self.assert_same_views(nbvopt.Planner(self.office, near).evaluate(self.poses), expected)
 
     def test_any_layout_and_type_of_numbers(self):
-        evaluator = nbvopt.Evaluator(self.office)
-        expected = evaluator.gains(self.poses).tolist()
+        gains = gains_of(nbvopt.Planner(self.office))
+        expected = gains(self.poses).tolist()
         for name, poses in (
             ("lists", self.poses.tolist()),
             ("by columns", np.asfortranarray(self.poses)),
@@ -201,17 +308,17 @@ class EvaluatorTest(BindingsTest):
             ("big-endian", self.poses.astype(">f8")),
         ):
             with self.subTest(name):
-                self.assertEqual(evaluator.gains(poses).tolist(), expected)
-        rounded = evaluator.gains(self.poses.astype(np.float32))
+                self.assertEqual(gains(poses).tolist(), expected)
+        rounded = gains(self.poses.astype(np.float32))
         np.testing.assert_allclose(rounded, expected, rtol=0.01, atol=1.0)
 
     def test_no_views_have_no_gains(self):
-        evaluator = nbvopt.Evaluator(self.office)
-        self.assertEqual(evaluator.gains(np.empty((0, 4, 4))).shape, (0,))
+        gains = gains_of(nbvopt.Planner(self.office))
+        self.assertEqual(gains(np.empty((0, 4, 4))).shape, (0,))
         self.assertEqual(nbvopt.sensor_poses(self.robot, BASE, np.empty((0, 3))).shape, (0, 4, 4))
 
     def test_refuses_what_is_no_pose(self):
-        gains = nbvopt.Evaluator(self.office).gains
+        gains = nbvopt.Planner(self.office).evaluate
         self.assert_refused(r"poses has the shape \(4, 4\), .*", gains, np.eye(4))
         self.assert_refused("poses must be an array of numbers", gains, "poses")
         self.assert_refused("poses must be an array of numbers", gains, [[[1.0], [2.0, 3.0]]])
@@ -234,7 +341,7 @@ class EvaluatorTest(BindingsTest):
             with self.subTest(message):
                 self.assert_refused(message, gains, spoilt(change))
         self.assert_refused(
-            "evaluator 'exakt' is not known, .*", nbvopt.Evaluator, self.office, evaluator="exakt"
+            "evaluator 'exakt' is not known, .*", nbvopt.Planner, self.office, evaluator="exakt"
         )
 
     def test_sensor_poses_follow_the_chain_of_frames(self):
@@ -276,7 +383,7 @@ class SurrogateTest(BindingsTest):
     def test_gain_is_nearly_the_exact_one(self):
         surrogate = self.make()
         joints = self.inside(surrogate, 200, margin=0.0)
-        exact = nbvopt.Evaluator(self.office).gains(
+        exact = gains_of(nbvopt.Planner(self.office))(
             nbvopt.sensor_poses(self.robot, BASE, joints)
         )
         self.assertGreater(np.corrcoef(surrogate.gains(joints), exact)[0, 1], 0.9995)
@@ -318,7 +425,7 @@ class SurrogateTest(BindingsTest):
                 self.assert_refused(message, self.make, **options)
         make = nbvopt.Surrogate
         situation = self.office, self.robot
-        self.assert_refused(".*motion_time_s.* -1 .*", make, *situation, BASE, JOINTS, -1.0)
+        self.assert_refused("motion_time_s is -1 s, .*", make, *situation, BASE, JOINTS, -1.0)
         self.assert_refused("tilt is 2 rad.*", make, *situation, BASE, (0, 2, 0.4), 1.0)
         self.assert_refused("joints has the shape .*", make, *situation, BASE, [JOINTS], 1.0)
         surrogate = self.make()
@@ -327,9 +434,10 @@ class SurrogateTest(BindingsTest):
         self.assert_refused(r"joints\[1\] is outside .*", surrogate.gains_and_gradients, outside)
 
 
-class QueryTest(BindingsTest):
-    def query(self, motion_time_s: float = 1.0, **options) -> nbvopt.PlanResult:
-        return nbvopt.query(self.office, self.robot, BASE, JOINTS, motion_time_s, **options)
+class PlanTest(BindingsTest):
+    def plan(self, motion_time_s: float = 1.0, evaluator="exact", **options) -> nbvopt.PlanResult:
+        planner = nbvopt.Planner(self.office, self.robot, evaluator)
+        return planner.plan(BASE, JOINTS, motion_time_s, **options)
 
     def assert_same_answer(self, answer: nbvopt.PlanResult, expected: dict):
         joints = [expected["pan"], expected["tilt"], expected["height"]]
@@ -369,14 +477,14 @@ class QueryTest(BindingsTest):
         ):
             with self.subTest(arguments):
                 expected = cli_query("--motion-time", "1", *arguments)
-                self.assert_same_answer(self.query(**options), expected)
+                self.assert_same_answer(self.plan(**options), expected)
 
     def test_answer_explains_itself(self):
-        answer = self.query(0.5)
+        answer = self.plan(0.5)
         self.assertEqual(answer.status, "optimal_within_tolerance")
         (pose,) = nbvopt.sensor_poses(self.robot, BASE, [answer.joints])
         np.testing.assert_array_equal(answer.T_map_sensor, pose)
-        self.assertEqual(answer.gain, nbvopt.Evaluator(self.office).gains([pose])[0])
+        self.assertEqual(answer.gain, gains_of(nbvopt.Planner(self.office))([pose])[0])
         np.testing.assert_allclose(answer.T_map_base[:3, 3], (1.9, 2.6, 0.0))
         low, high = answer.box
         self.assertTrue((low <= answer.joints).all() and (answer.joints <= high).all())
@@ -384,8 +492,8 @@ class QueryTest(BindingsTest):
         self.assertIn("optimal_within_tolerance", repr(answer))
 
     def test_trace_lists_every_evaluation(self):
-        self.assertEqual(self.query().trace["joints"].shape, (0, 3))
-        answer = self.query(trace=True)
+        self.assertEqual(self.plan().trace["joints"].shape, (0, 3))
+        answer = self.plan(trace=True)
         trace = answer.trace
         is_exact = trace["kind"] == "exact"
         self.assertEqual(is_exact.sum(), answer.evaluations)
@@ -397,10 +505,10 @@ class QueryTest(BindingsTest):
         self.assertTrue((np.diff(trace["time_ms"]) >= 0.0).all())
 
     def test_limits_end_the_search(self):
-        cut = self.query(max_evaluations=5)
+        cut = self.plan(max_evaluations=5)
         self.assertEqual(cut.status, "evaluation_limit")
         self.assertEqual(cut.evaluations + cut.surrogate_evaluations, 5)
-        self.assertEqual(self.query(time_limit_ms=1e-6).status, "time_limit")
+        self.assertEqual(self.plan(time_limit_ms=1e-6).status, "time_limit")
 
     def test_refuses_what_it_cannot_do(self):
         for message, options in (
@@ -416,35 +524,92 @@ class QueryTest(BindingsTest):
             ("evaluator 'exakt' is not known, .*", {"evaluator": "exakt"}),
         ):
             with self.subTest(message):
-                self.assert_refused(message, self.query, **options)
-        ask = nbvopt.query
-        self.assert_refused(
-            r"base has the shape \(\), .*", ask, self.office, self.robot, 1.9, JOINTS, 1.0
-        )
-        self.assert_refused(
-            "tilt is 1.5 rad, .*", ask, self.office, self.robot, BASE, (0, 1.5, 0.4), 1.0
-        )
+                self.assert_refused(message, self.plan, **options)
+        plan = nbvopt.Planner(self.office).plan
+        self.assert_refused(r"base has the shape \(\), .*", plan, 1.9, JOINTS, 1.0)
+        self.assert_refused("tilt is 1.5 rad, .*", plan, BASE, (0, 1.5, 0.4), 1.0)
+
+    def test_query_is_a_plan_of_a_planner_that_is_not_kept(self):
+        options = {"evaluator": "paper-code", "solver": "grid", "step_tilt_rad": 0.3}
+        answer = nbvopt.query(self.office, self.robot, BASE, JOINTS, 1.0, **options)
+        expected = self.plan(**options)
+        self.assertEqual((answer.gain, answer.solver), (expected.gain, "grid"))
+        self.assertEqual(answer.joints.tolist(), expected.joints.tolist())
+
+
+class ExplanationTest(BindingsTest):
+    """The landscape and the picture, as `nbvopt query` makes them."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.planner = nbvopt.Planner(cls.office)
+        cls.look = cls.planner.plan(BASE, JOINTS, 1.0, trace=True)
+        files = ["--plot", cls.folder / "theirs.png", "--landscape", cls.folder / "theirs.json"]
+        cli_query("--motion-time", "1", *files)
+
+    def test_landscape_is_that_of_the_command_line(self):
+        theirs = json.loads((self.folder / "theirs.json").read_text())
+        landscape = self.planner.landscape(self.look)
+        self.assertEqual(landscape.height_m, theirs["height"])
+        self.assertEqual(landscape.pan_rad.tolist(), theirs["pan"])
+        self.assertEqual(landscape.tilt_rad.tolist(), theirs["tilt"])
+        self.assertEqual(landscape.gain.tolist(), theirs["gain"])
+
+    def test_picture_is_that_of_the_command_line(self):
+        """But for the line that says how long the search took."""
+        theirs = image_rows((self.folder / "theirs.png").read_bytes())
+        ours = image_rows(self.planner.plot(self.look))
+        self.assertEqual(len(ours), len(theirs))
+        line_with_time = range(2 * 50, 2 * 70)
+        different = [i for i in range(len(ours)) if ours[i] != theirs[i]]
+        self.assertEqual([i for i in different if i not in line_with_time], [])
+
+    def test_picture_goes_to_a_file(self):
+        file = self.folder / "ours.png"
+        self.assertIsNone(self.planner.plot(self.look, file))
+        self.assertEqual(file.read_bytes(), self.planner.plot(self.look))
+
+    def test_picture_leaves_out_what_it_does_not_know(self):
+        full = image_rows(self.planner.plot(self.look))
+        bare = self.planner.plan(BASE, JOINTS, 1.0)
+        for name, png in (
+            ("the search's way", self.planner.plot(bare)),
+            ("the paper's pans", self.planner.plot(self.look, step_pan_rad=0.0)),
+        ):
+            with self.subTest(name):
+                rows = image_rows(png)
+                self.assertEqual(len(rows), len(full))
+                self.assertGreater(sum(a != b for a, b in zip(rows[200:], full[200:])), 10)
+
+    def test_refuses_what_it_cannot_do(self):
+        plot = self.planner.plot
+        self.assert_refused("/no/such/p.png: .*", plot, self.look, "/no/such/p.png")
+        self.assert_refused("step_pan_rad is -1, .*", plot, self.look, step_pan_rad=-1)
 
 
 class LifetimeTest(BindingsTest):
     def test_what_is_made_of_a_map_keeps_it(self):
         """ctest sets MALLOC_PERTURB_: memory that is given back holds nothing usable."""
         for name, make, views in (
-            ("exact", nbvopt.Evaluator, self.poses),
-            ("paper-code", lambda map: nbvopt.Evaluator(map, evaluator="paper-code"), self.poses),
+            ("exact", lambda map: gains_of(nbvopt.Planner(map)), self.poses),
+            ("paper-code", lambda map: gains_of(nbvopt.Planner(map, evaluator="paper-code")), self.poses),
             (
                 "surrogate",
-                lambda map: nbvopt.Surrogate(map, self.robot, BASE, JOINTS, 1.0),
+                lambda map: nbvopt.Surrogate(map, self.robot, BASE, JOINTS, 1.0).gains,
                 [JOINTS, (2.0, 0.3, 0.3)],
             ),
         ):
             with self.subTest(name):
-                expected = make(self.office).gains(views).tolist()
+                expected = make(self.office)(views).tolist()
                 office = nbvopt.Map(OFFICE)
-                judge = make(office)
+                gains = make(office)
                 del office
                 gc.collect()
-                self.assertEqual(judge.gains(views).tolist(), expected)
+                self.assertEqual(gains(views).tolist(), expected)
 
     def test_arrays_outlive_what_they_came_from(self):
         states = nbvopt.Map(OFFICE).slice(0.4).states
@@ -465,8 +630,8 @@ class ThreadTest(BindingsTest):
     def test_other_threads_run_while_views_are_evaluated(self):
         """A worker with the interpreter's lock would let this thread turn once or twice."""
         poses = np.tile(self.poses, (500, 1, 1))
-        evaluator = nbvopt.Evaluator(self.office, evaluator="paper-code")
-        worker = threading.Thread(target=evaluator.gains, args=(poses,))
+        planner = nbvopt.Planner(self.office, evaluator="paper-code")
+        worker = threading.Thread(target=planner.evaluate, args=(poses,))
         turns = 0
         worker.start()
         while worker.is_alive():
@@ -477,12 +642,12 @@ class ThreadTest(BindingsTest):
     def test_threads_share_a_fresh_map(self):
         """All begin on an empty grid, so that they fill it together."""
         poses = np.tile(self.poses, (50, 1, 1))
-        expected = nbvopt.Evaluator(self.office).gains(poses).tolist()
+        expected = gains_of(nbvopt.Planner(self.office))(poses).tolist()
         office = nbvopt.Map(OFFICE)
         answers = {}
 
         def evaluate(name):
-            answers[name] = nbvopt.Evaluator(office).gains(poses).tolist()
+            answers[name] = gains_of(nbvopt.Planner(office))(poses).tolist()
 
         def ask(name):
             answer = nbvopt.query(office, self.robot, BASE, JOINTS, 1.0)
