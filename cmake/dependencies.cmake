@@ -1,5 +1,5 @@
-# Every library that the core stands on; the Debian packages are listed in packages.txt, and
-# nbvoptConfig.cmake.in looks for the same ones.
+# Every library that the chosen parts stand on; the Debian packages are listed in packages-planner.txt
+# and, for the other parts, in packages.txt. nbvoptConfig.cmake.in looks for the same ones.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(octomap 1.9 REQUIRED CONFIG)
 find_package(hwy 1.0 REQUIRED CONFIG)
@@ -11,13 +11,17 @@ find_package(nlohmann_json 3.11 REQUIRED CONFIG)
 find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
 find_package(Ceres 2.1 REQUIRED CONFIG)
 # The simulator's: worlds, meshes, rays.
-find_package(embree 3.13 REQUIRED CONFIG)
-find_package(sdformat12 12.3 REQUIRED CONFIG)
-find_package(assimp 5.2 REQUIRED CONFIG)
+if(NBVOPT_BUILD_SIM)
+  find_package(embree 3.13 REQUIRED CONFIG)
+  find_package(sdformat12 12.3 REQUIRED CONFIG)
+  find_package(assimp 5.2 REQUIRED CONFIG)
+endif()
 # The server's and its clients'.
-find_package(Protobuf 3.21 REQUIRED)
-find_package(gRPC 1.51 REQUIRED CONFIG)
-find_package(spdlog 1.10 REQUIRED CONFIG)
+if(NBVOPT_BUILD_SERVER)
+  find_package(Protobuf 3.21 REQUIRED)
+  find_package(gRPC 1.51 REQUIRED CONFIG)
+  find_package(spdlog 1.10 REQUIRED CONFIG)
+endif()
 # The Python module's: Debian's own Python, whichever else stands before it on the PATH.
 if(NBVOPT_BUILD_PYTHON)
   if(NOT DEFINED Python_EXECUTABLE)

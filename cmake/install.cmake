@@ -6,13 +6,17 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nbvopt)
 install(TARGETS nbvopt EXPORT nbvoptTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT nbvoptTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
 # A component of its own: who only plans needs none of the simulator's libraries.
-install(TARGETS nbvopt_sim EXPORT nbvoptSimTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT nbvoptSimTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
+if(NBVOPT_BUILD_SIM)
+  install(TARGETS nbvopt_sim EXPORT nbvoptSimTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT nbvoptSimTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
+endif()
 # The same for who calls a planning server.
-install(TARGETS nbvopt_client nbvopt_protocol nbvopt_protocol_generated EXPORT nbvoptClientTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT nbvoptClientTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
-install(FILES ${nbvopt_proto} DESTINATION ${CMAKE_INSTALL_DATADIR}/nbvopt/proto/nbvopt/v1)
+if(NBVOPT_BUILD_SERVER)
+  install(TARGETS nbvopt_client nbvopt_protocol nbvopt_protocol_generated EXPORT nbvoptClientTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT nbvoptClientTargets NAMESPACE nbvopt:: DESTINATION ${package_dir})
+  install(FILES ${nbvopt_proto} DESTINATION ${CMAKE_INSTALL_DATADIR}/nbvopt/proto/nbvopt/v1)
+endif()
 install(DIRECTORY include/nbvopt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 configure_package_config_file(cmake/nbvoptConfig.cmake.in nbvoptConfig.cmake

@@ -1,0 +1,23 @@
+# What can be left out. Planning on a robot needs the library alone, which is always built.
+option(NBVOPT_BUILD_SIM "Build the simulator and pictures (Embree, libsdformat, Assimp, Cairo)" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_SERVER "Build the planning server and its clients (gRPC)" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_STUDY "Build studies and the paper's experiment" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_PYTHON "Build the Python module" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_CLI "Build the command line tool" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_TESTS "Build the tests and the generators of datasets" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_FUZZERS "Build the libFuzzer targets (clang only)" OFF)
+
+# nbvopt_part_needs(<part> <parts>...): a part that is on needs these to be on, too.
+function(nbvopt_part_needs part)
+  foreach(needed ${ARGN})
+    if(NBVOPT_BUILD_${part} AND NOT NBVOPT_BUILD_${needed})
+      message(FATAL_ERROR "NBVOPT_BUILD_${part} needs NBVOPT_BUILD_${needed}")
+    endif()
+  endforeach()
+endfunction()
+
+nbvopt_part_needs(STUDY SIM)
+nbvopt_part_needs(PYTHON SIM SERVER)
+nbvopt_part_needs(CLI SIM SERVER STUDY)
+nbvopt_part_needs(BENCHMARKS TESTS CLI)  # the scenes of datasets/, the server to be measured
