@@ -10,16 +10,16 @@ NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/searc
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci packages-notebooks packages-docs build demo test \
-        bench bench-search bench-server notebook docs sanitize sanitize-threads fuzz format check-format tidy clean
+        bench bench-search bench-server notebook docs sanitize sanitize-threads fuzz format check-format tidy tidy-changed clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
 
 packages:
-	@cmake/install_packages.sh packages.txt
+	@cmake/install_packages.sh packages-planner.txt packages.txt
 
 packages-ci:
-	@cmake/install_packages.sh packages.txt packages-ci.txt
+	@cmake/install_packages.sh packages-planner.txt packages.txt packages-ci.txt
 
 packages-notebooks:
 	@cmake/install_packages.sh packages-notebooks.txt
@@ -63,16 +63,16 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 docs: packages-docs  ## make a site of the documentation and the headers in build/docs/site; warnings are errors
 	@docs/site/build.sh
 
-sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
+sanitize: packages-ci  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
 
 sanitize-threads:  ## run the server's tests under the thread sanitizer
 	@$(MAKE) --no-print-directory test PRESET=thread
 
-fuzz: packages-ci  ## fuzz the readers and the server, 20 seconds each
-	@cmake --preset fuzz --log-level=WARNING
+fuzz: packages packages-ci  ## fuzz the readers and the server, 20 seconds each, in the build of `make sanitize`
+	@cmake --preset sanitize --log-level=WARNING
 	@cmake --build --preset fuzz
-	@ctest --preset fuzz --output-junit junit.xml
+	@ctest --preset fuzz --output-junit junit-fuzz.xml
 
 format: packages-ci  ## format all sources
 	@clang-format -i $(SOURCES)
@@ -80,9 +80,15 @@ format: packages-ci  ## format all sources
 check-format: packages-ci
 	@clang-format --dry-run -Werror $(SOURCES)
 
-tidy: packages-ci  ## lint all sources
+# Linting needs the generated headers, and nothing else that a build makes.
+tidy: packages packages-ci  ## lint all sources; FILES="..." takes some
 	@cmake --preset tidy --log-level=WARNING
-	@run-clang-tidy -quiet -j 2 -p build/tidy '^$(CURDIR)/(src|solvers|cli|datasets|bench)/'
+	@ninja -C build/tidy --quiet src/protocol/generated/nbvopt/v1/planner.pb.h
+	@run-clang-tidy -quiet -j 2 -p build/tidy $(or $(addprefix $(CURDIR)/,$(FILES)),'^$(CURDIR)/(src|solvers|cli|datasets|bench)/')
+
+tidy-changed:  ## lint what the newest commits changed
+	@files=$$(cmake/changed_sources.sh) && if [ -n "$$files" ]; then \
+	  $(MAKE) --no-print-directory tidy FILES="$$files"; else echo "no source was changed"; fi
 
 clean:  ## remove all builds and what the demo wrote
 	@rm -rf build out

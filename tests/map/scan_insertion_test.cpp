@@ -114,7 +114,6 @@ TEST(InsertScan, ClearsTheRayAndOccupiesItsEnd) {
 /// Equation (9): at the focal distance, in the middle of the image, u is 0; the voxel's other
 /// point is 0.04 m further. Its first observation counts, and so does every point.
 TEST(InsertScan, KeepsTheLeastUncertaintyOfAllPoints) {
-  const SensorOptions sensor;
   const double u_far = 0.5 * (1.0 - 2.0 / (1.0 + std::exp(0.04)));  // Equations (2), (8)
   UncertaintyMap map(0.1);
   insert(map, points({{0, 0, 1.04F}}));

@@ -204,7 +204,8 @@ TEST(MeshFile, RefusesWhatIsNoMeshAndNamesTheFile) {
       {"noise.ply", "not a mesh at all", "cannot be read as a mesh"},
       {"far.obj", "v 0 0 0\nv 1 0 0\nf 1 2 99\n", ""}};
   for (const auto& [name, content, reason] : files) {
-    const std::string message = message_of<InputError>([&] { read_text_as(name, content); });
+    const std::string message = message_of<InputError>(
+        [&, &name = name, &content = content] { read_text_as(name, content); });
     EXPECT_THAT(message, testing::AllOf(HasSubstr(name + ": "), HasSubstr(reason))) << name;
   }
 }
