@@ -1,24 +1,15 @@
 #include "cli/query.hpp"
 
-#include <CLI/Option.hpp>
-#include <filesystem>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "cli/options/arguments.hpp"
-#include "cli/options/solver_arguments.hpp"
-#include "cli/options/view_arguments.hpp"
+#include "cli/options/query_arguments.hpp"
 #include "cli/query_answer.hpp"
 #include "cli/terminal/output.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
-#include "core/number.hpp"
 #include "core/stopwatch.hpp"
-#include "nbvopt/client/planner_client.hpp"
-#include "nbvopt/core/error.hpp"
 #include "nbvopt/planner/robot_fields.hpp"
 #include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/registry.hpp"
@@ -27,56 +18,6 @@
 
 namespace nbvopt {
 namespace {
-
-constexpr std::int64_t kMaxWhole = std::numeric_limits<std::int64_t>::max();
-
-struct QueryOptions {
-  std::string map_file;  ///< empty: the server's
-  std::string server;    ///< its address; empty: the map file's
-  ClientTls tls;
-  Transform T_map_base = Transform::Identity();
-  BaseTwist base_twist;
-  double pan_rad = 0.0;
-  double tilt_rad = 0.0;
-  std::optional<double> height_m;  ///< none: the mast's lowest
-  double motion_time_s = 0.0;
-  ViewArguments view;
-  std::optional<double> occupied_uncertainty;  ///< none: as the robot says
-  SolverArguments solver;
-  double min_gain = PlanRequest{}.min_gain;
-  std::int64_t seed = 1;
-  std::optional<double> time_limit_ms;
-  std::int64_t max_evaluations = kMaxWhole;
-  bool json = false;
-  std::string json_file;
-  std::string plot_file;
-  std::string trace_file;
-  std::string landscape_file;
-};
-
-void check(const QueryOptions& options) {
-  if (options.map_file.empty() == options.server.empty()) {
-    throw UsageError("name a MAP, or a server that holds one by --server, and not both");
-  }
-  if (!options.server.empty() && !options.height_m) {
-    throw UsageError("--height is needed with --server: the mast is the server's");
-  }
-  if (options.motion_time_s < 0.0) {
-    throw InputError("--motion-time is " + format_number(options.motion_time_s) +
-                     " s, it must be 0 (no limit) or more");
-  }
-  constexpr double kLongestMs = 1e9;  // eleven days
-  if (options.time_limit_ms &&
-      !(*options.time_limit_ms > 0.0 && *options.time_limit_ms <= kLongestMs)) {
-    throw InputError("--time-limit-ms is " + format_number(*options.time_limit_ms) +
-                     ", it must be greater than 0 and at most " + format_number(kLongestMs));
-  }
-  // A search whose answer could not be kept would be in vain.
-  for (const std::string& file :
-       {options.json_file, options.plot_file, options.trace_file, options.landscape_file}) {
-    if (!file.empty()) require_writable(file);
-  }
-}
 
 Robot robot_of(const QueryOptions& options) {
   Robot robot = make_robot(options.view);
@@ -174,105 +115,12 @@ void run_query(const QueryOptions& options) {
   }
 }
 
-void add_situation(CLI::App& query, QueryOptions& options) {
-  query.option_defaults()->group("Where the robot is");
-  query.add_option("MAP", options.map_file, "a map: .bt or .ot; not with --server");
-  query
-      .add_option_function<std::string>(
-          "--base",
-          [&options](const std::string& text) {
-            const auto base = numbers_argument("--base", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
-            const double z_m = base.size() == 4 ? base[2] : 0.0;
-            options.T_map_base = base_pose(base[0], base[1], z_m, base.back());
-          },
-          "the robot's base in the map: metres and radians, z is 0 when left out")
-      ->type_name("X,Y[,Z],YAW")
-      ->required();
-  add_number(query, "--motion-time", options.motion_time_s, "SECONDS",
-             "how long the joints may move; 0: no limit")
-      ->required()
-      ->default_str("");
-  add_number(query, "--pan", options.pan_rad, "RAD", "pan now, counter-clockwise from above");
-  add_number(query, "--tilt", options.tilt_rad, "RAD", "tilt now, positive looks up");
-  add_number(query, "--height", options.height_m, "M",
-             "height now, above the base [the mast's lowest]");
-  query
-      .add_option_function<std::string>(
-          "--base-velocity",
-          [&options](const std::string& text) {
-            const auto v = numbers_argument("--base-velocity", text, {3}, "VX,VY,WZ");
-            options.base_twist = {v[0], v[1], v[2]};
-          },
-          "the base's velocity in its own frame, which it keeps while the joints move: m/s and "
-          "rad/s")
-      ->type_name("VX,VY,WZ")
-      ->default_str("0,0,0");
-}
-
-void add_search(CLI::App& query, QueryOptions& options) {
-  query.option_defaults()->group("How to search");
-  add_solver_arguments(query, options.solver);
-  add_number(query, "--min-gain", options.min_gain, "GAIN",
-             "with less than this to be had, stay and say no_gain_in_reach");
-  add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
-                   "of solvers that draw random numbers");
-  add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",
-             "stop computing after this, from the map's load on, with the best so far [no limit]");
-  add_whole_number(query, "--max-evals", options.max_evaluations, 1, kMaxWhole,
-                   "stop after so many evaluations with the best so far [no limit]")
-      ->default_str("");
-}
-
-void add_judgement(CLI::App& query, QueryOptions& options) {
-  query.option_defaults()->group("How views are judged");
-  add_view_arguments(query, options.view);
-  add_number(query, "--occupied-uncertainty", options.occupied_uncertainty, "U",
-             "0 to 1: u of an occupied voxel when the map carries none [as the robot says]");
-}
-
-void add_outputs(CLI::App& query, QueryOptions& options) {
-  query.option_defaults()->group("What to write");
-  query.add_flag("--json", options.json, "print one JSON object instead of text");
-  query.add_option("--json-out", options.json_file, "also write the JSON object to a file")
-      ->type_name("FILE");
-  query.add_option("--plot", options.plot_file, "draw the map, the views, the gain and the search")
-      ->type_name("OUT.png");
-  query
-      .add_option("--trace", options.trace_file,
-                  "write every evaluation of the search, a JSON object a line")
-      ->type_name("FILE");
-  query
-      .add_option("--landscape", options.landscape_file,
-                  "write the gain over pan and tilt at the chosen height, as JSON")
-      ->type_name("FILE");
-}
-
-void add_server(CLI::App& query, QueryOptions& options) {
-  query.option_defaults()->group("Asking a server (nbvopt serve) that holds map and robot");
-  CLI::Option* server =
-      query.add_option("--server", options.server, "HOST:PORT or unix:PATH")->type_name("ADDRESS");
-  const auto add_pem = [&](const char* name, std::filesystem::path& file, const char* description) {
-    query.add_option(name, file, description)->type_name("PEM")->needs(server);
-  };
-  add_pem("--tls-ca", options.tls.server_ca, "who signs the server's certificate");
-  add_pem("--tls-cert", options.tls.certificate, "the caller's certificate");
-  add_pem("--tls-key", options.tls.key, "its private key");
-  for (const char* ours : {"--robot", "--threads", "--evaluator", "--counting",
-                           "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
-    query.get_option(ours)->excludes(server);
-  }
-}
-
 }  // namespace
 
 void set_up_query(CLI::App& app) {
   auto options = std::make_shared<QueryOptions>();
   CLI::App* query = app.add_subcommand("query", "Where should the camera look next?");
-  add_situation(*query, *options);
-  add_search(*query, *options);
-  add_judgement(*query, *options);
-  add_outputs(*query, *options);
-  add_server(*query, *options);
+  add_query_arguments(*query, *options);
   std::string solvers;
   for (const std::string& name : solver_names()) solvers += (solvers.empty() ? "" : ", ") + name;
   query->footer(

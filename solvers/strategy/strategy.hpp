@@ -1,19 +1,12 @@
 // The solver behind make_strategy().
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "nbvopt/solver/strategy.hpp"
+#include "solvers/strategy/strategy_search.hpp"
 
 namespace nbvopt {
-
-/// The solvers of a strategy's stages; null where a stage is left out.
-struct StrategyStages {
-  std::unique_ptr<Solver> global;
-  std::unique_ptr<Solver> local;
-  std::unique_ptr<Solver> polish;
-};
 
 class StrategySolver final : public Solver {
  public:

@@ -2,15 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "nbvopt/solver/strategy.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/strategy/objectives.hpp"
-#include "solvers/strategy/strategy.hpp"
 
 namespace nbvopt {
+
+/// The solvers of a strategy's stages; null where a stage is left out.
+struct StrategyStages {
+  std::unique_ptr<Solver> global;
+  std::unique_ptr<Solver> local;
+  std::unique_ptr<Solver> polish;
+};
 
 /// Runs the stages on one objective, once. What its references refer to must outlive it.
 class StrategySearch {

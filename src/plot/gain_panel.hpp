@@ -2,7 +2,7 @@
 #pragma once
 
 #include "plot/canvas.hpp"
-#include "plot/query_plot.hpp"
+#include "plot/plot_input.hpp"
 
 namespace nbvopt {
 

@@ -4,19 +4,10 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "nbvopt/planner/view_planner.hpp"
+#include "plot/plot_input.hpp"
 
 namespace nbvopt {
-
-/// An answer, and what it stands on.
-struct PlotInput {
-  const ViewPlanner& planner;
-  const PlanResult& result;                     ///< the planner's, with its trace
-  const Landscape& landscape;                   ///< around it
-  std::vector<double> candidate_pans_rad = {};  ///< the pans of the paper's grid
-};
 
 /// Draws the picture: the bytes of a PNG file.
 std::string plot_png(const PlotInput& input);

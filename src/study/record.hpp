@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/work.hpp"
+#include "study/fingerprints.hpp"
 #include "study/study.hpp"
 #include "study/study_file.hpp"
 

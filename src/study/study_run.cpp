@@ -7,6 +7,7 @@
 #include "core/folder.hpp"
 #include "experiment/process_pool.hpp"
 #include "experiment/record_file.hpp"
+#include "study/fingerprints.hpp"
 #include "study/record.hpp"
 
 namespace nbvopt::study {

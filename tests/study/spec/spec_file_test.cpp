@@ -5,6 +5,7 @@
 #include <set>
 
 #include "nbvopt/core/error.hpp"
+#include "study/fingerprints.hpp"
 #include "study/study_fixture.hpp"
 #include "support/error_message.hpp"
 
