@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-most=24
+most=8
 head_time=$(git show -s --format=%ct HEAD)
 git log --since="$((head_time - 86400))" --format= --name-only -- \
     'src/*.cpp' 'solvers/*.cpp' 'cli/*.cpp' 'datasets/*.cpp' 'bench/*.cpp' |
