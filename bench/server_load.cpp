@@ -9,6 +9,7 @@
 
 #include "bench/latencies.hpp"
 #include "nbvopt/client/planner_client.hpp"
+#include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/exploration.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
 #include "nbvopt/sim/world.hpp"
