@@ -63,16 +63,16 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 docs: packages-docs  ## make a site of the documentation and the headers in build/docs/site; warnings are errors
 	@docs/site/build.sh
 
-sanitize: packages-ci  ## run all tests under the address and undefined-behaviour sanitizers
+sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
 
 sanitize-threads:  ## run the server's tests under the thread sanitizer
 	@$(MAKE) --no-print-directory test PRESET=thread
 
-fuzz: packages packages-ci  ## fuzz the readers and the server, 20 seconds each, in the build of `make sanitize`
-	@cmake --preset sanitize --log-level=WARNING
+fuzz: packages packages-ci  ## fuzz the readers and the server, 20 seconds each
+	@cmake --preset fuzz --log-level=WARNING
 	@cmake --build --preset fuzz
-	@ctest --preset fuzz --output-junit junit-fuzz.xml
+	@ctest --preset fuzz --output-junit junit.xml
 
 format: packages-ci  ## format all sources
 	@clang-format -i $(SOURCES)
