@@ -146,9 +146,12 @@ void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
   };
   take(JointPosition::from(solved.best));
   result.status = plan_status(solved.status);
-  if (!was_cut_short(solved.status, request.stop) && result.view.gain < request.min_gain) {
+  const VoxelState at_camera = state_at_camera(*grid_, mast, request.joints);
+  const bool is_worth_a_move = result.view.gain >= request.min_gain;
+  if (at_camera == VoxelState::occupied ||
+      (!is_worth_a_move && !was_cut_short(solved.status, request.stop))) {
     result.status = PlanStatus::no_gain_in_reach;
-    result.message = no_gain_message(state_at_camera(*grid_, mast, request.joints), result.view);
+    result.message = no_gain_message(at_camera, result.view);
     take(request.joints);
   } else {
     result.message = gain_message(result);

@@ -62,27 +62,26 @@ JointBox box_free_of_obstacles(const Reach& reach, const VoxelGrid& grid) {
     q.height_m = height_m;
     return state_at_camera(grid, mast, q) == VoxelState::occupied;
   };
-  // Half voxels along the way of the optical centre, as far as it moves through no obstacle. One
-  // that starts inside an obstacle may leave it. A moving base lengthens the way.
+  JointBox box = reach.joints;
+  if (column_is_occupied(joints.height_m)) {
+    box.min[2] = box.max[2] = joints.height_m;
+    return box;
+  }
+  // Half voxels along the way of the optical centre, as far as it moves through no obstacle. A
+  // moving base lengthens the way.
   const double way_per_height =
       1.0 + mast.base_twist().speed_m_s() / mast.mast().options().height_velocity_m_s;
   const double step_m = 0.5 * grid.lattice().resolution_m() / way_per_height;
   const auto free_until = [&](double limit_m, double direction) {
-    bool inside = column_is_occupied(joints.height_m);
     double free_m = joints.height_m;
     for (int i = 1; direction * (limit_m - free_m) > 0.0; ++i) {
       const double next_m = joints.height_m + direction * i * step_m;
       const double height_m = direction * (limit_m - next_m) > 0.0 ? next_m : limit_m;
-      if (column_is_occupied(height_m)) {
-        if (!inside) return free_m;
-      } else {
-        inside = false;
-      }
+      if (column_is_occupied(height_m)) return free_m;
       free_m = height_m;
     }
     return limit_m;
   };
-  JointBox box = reach.joints;
   box.max[2] = free_until(box.max[2], 1.0);
   box.min[2] = free_until(box.min[2], -1.0);
   return box;

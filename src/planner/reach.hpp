@@ -21,7 +21,8 @@ Reach reach_of(const PlanRequest& request, const Mast& mast, const SensorOptions
                const Lattice& lattice);
 
 /// The reachable box, its height cut at the first occupied voxel that the optical centre would meet
-/// on its way up or down, the base moving on meanwhile. The voxels in reach must be ready.
+/// on its way up or down, the base moving on meanwhile; one that is inside an obstacle keeps its
+/// height. The voxels in reach must be ready.
 JointBox box_free_of_obstacles(const Reach& reach, const VoxelGrid& grid);
 
 /// The state of the voxel that holds the optical centre once the joints have arrived; it must be
