@@ -13,7 +13,7 @@ find_package(Ceres 2.1 REQUIRED CONFIG)
 # The simulator's: worlds, meshes, rays.
 if(NBVOPT_BUILD_SIM)
   find_package(embree 3.13 REQUIRED CONFIG)
-  find_package(sdformat12 12.3 REQUIRED CONFIG)
+  find_package(tinyxml2 9.0 REQUIRED CONFIG)
   find_package(assimp 5.2 REQUIRED CONFIG)
 endif()
 # The server's and its clients'.

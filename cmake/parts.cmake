@@ -1,5 +1,5 @@
 # What can be left out. Planning on a robot needs the library alone, which is always built.
-option(NBVOPT_BUILD_SIM "Build the simulator and pictures (Embree, libsdformat, Assimp, Cairo)" ${PROJECT_IS_TOP_LEVEL})
+option(NBVOPT_BUILD_SIM "Build the simulator and pictures (Embree, TinyXML-2, Assimp, Cairo)" ${PROJECT_IS_TOP_LEVEL})
 option(NBVOPT_BUILD_SERVER "Build the planning server and its clients (gRPC)" ${PROJECT_IS_TOP_LEVEL})
 option(NBVOPT_BUILD_STUDY "Build studies and the paper's experiment" ${PROJECT_IS_TOP_LEVEL})
 option(NBVOPT_BUILD_PYTHON "Build the Python module" ${PROJECT_IS_TOP_LEVEL})

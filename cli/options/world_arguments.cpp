@@ -13,9 +13,10 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
   app.add_option("WORLD", arguments.world_file,
                  "a Gazebo world (.world, .sdf), or a mesh: .ply, .obj, .stl, .dae")
       ->required();
-  app.add_option("--model-path", arguments.model_paths,
-                 "a folder of models, after the world's own and before those of GAZEBO_MODEL_PATH; "
-                 "may be given several times")
+  app.add_option(
+         "--model-path", arguments.model_paths,
+         "a folder of models, after the world's own and before those of Gazebo's environment; "
+         "may be given several times")
       ->type_name("DIR");
   app.add_option("--geometry", arguments.geometry, "which shapes of the models to take")
       ->check(CLI::IsMember(enum_names<WorldGeometry>()))

@@ -96,7 +96,7 @@ void bind_world(py::module_& module) {
           "Reads a Gazebo world (.world, .sdf) or a mesh (.ply, .obj, .stl, .dae). What is missing "
           "or left out is a warning of Python's.\n\n"
           "model_paths: folders of models, after the world's own and before those of "
-          "GAZEBO_MODEL_PATH.\n"
+          "Gazebo's environment.\n"
           "geometry: \"visual\" or \"collision\", which shapes of the models to take.\n"
           "strict: refuse a world with parts missing instead of warning.\n"
           "cache: the folder that keeps the built world; True: the user's, False: none.\n\n"

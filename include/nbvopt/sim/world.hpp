@@ -16,8 +16,8 @@ enum class WorldGeometry { visual, collision };
 
 /// How a world is read.
 struct WorldOptions {
-  /// Folders that hold models by name, searched in this order, after the world's own: the folder of
-  /// the file and the folders `models` in it and beside it.
+  /// Folders that hold models by name, searched in this order, after the world's own, the folder of
+  /// the file. Each stands also for `models` in it and beside it, and for the folder above.
   std::vector<std::filesystem::path> model_paths = {};
   WorldGeometry geometry = WorldGeometry::visual;
   bool is_strict = false;  ///< refuse a world that would load with parts missing
@@ -37,10 +37,12 @@ struct World {
 
 /// Reads a Gazebo world (.world, .sdf) or a single mesh (PLY, OBJ, STL, COLLADA; metres). Throws
 /// InputError that names the file: missing or not readable, not a world, without any geometry;
-/// when strict, the first part that is missing.
+/// when strict, the first part that is missing. Nothing is fetched from a network.
 World read_world(const std::filesystem::path& path, const WorldOptions& options);
 
-/// The folders of GAZEBO_MODEL_PATH, where Gazebo itself looks for models.
+/// The folders where Gazebo itself looks for models, as far as they are there: those of
+/// GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_RESOURCE_PATH, and
+/// ~/.gazebo/models.
 std::vector<std::filesystem::path> gazebo_model_paths();
 
 /// Where the user's programs keep what they can make again (XDG Base Directory Specification);

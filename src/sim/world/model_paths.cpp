@@ -1,6 +1,7 @@
 #include "sim/world/model_paths.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
 
 #include "core/text_file.hpp"
@@ -46,6 +47,32 @@ std::optional<fs::path> descend(fs::path folder, const fs::path& relative) {
   return folder;
 }
 
+/// The local caches of Fuel: where the environment says, or where its programs put them.
+std::vector<fs::path> fuel_caches() {
+  std::vector<fs::path> caches;
+  for (const char* name : {"GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH"}) {
+    if (const char* path = std::getenv(name); path != nullptr && *path != '\0') {
+      caches.emplace_back(path);
+    }
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    caches.push_back(fs::path(home) / ".gz" / "fuel");
+    caches.push_back(fs::path(home) / ".ignition" / "fuel");
+  }
+  return caches;
+}
+
+/// The version in a model's folder of a cache that is asked for, or the newest.
+std::optional<fs::path> version_in(const fs::path& model, const std::string& wanted) {
+  if (!wanted.empty() && is_there(model / wanted)) return model / wanted;
+  const auto number_of = [](const fs::path& folder) {
+    return std::atoll(folder.filename().string().c_str());
+  };
+  const std::vector<fs::path> versions = entries(model);
+  const auto newest = std::ranges::max_element(versions, {}, number_of);
+  return newest == versions.end() ? std::nullopt : std::optional(*newest);
+}
+
 /// The model's own name in a model.config: the first <name> that is not its author's.
 std::string model_name(const std::string& config) {
   std::size_t from = config.find("<name>");
@@ -60,13 +87,20 @@ std::string model_name(const std::string& config) {
 }  // namespace
 
 ModelPaths::ModelPaths(const fs::path& world_folder, const std::vector<fs::path>& user_folders)
-    : folders_{world_folder, world_folder / "models", world_folder / ".." / "models"} {
+    : fuel_caches_(fuel_caches()) {
+  std::vector<fs::path> given{world_folder};
   std::error_code ignored;
   for (const fs::path& folder : user_folders) {
     if (!fs::is_directory(folder, ignored)) {
       throw InputError(folder.string() + ": is not a folder, models are looked for in folders");
     }
-    folders_.push_back(fs::absolute(folder));
+    given.push_back(fs::absolute(folder));
+  }
+  for (const fs::path& folder : given) {
+    const fs::path above = folder / "..";
+    for (const fs::path& place : {folder, folder / "models", above / "models", above}) {
+      if (std::ranges::count(folders_, place) == 0) folders_.push_back(place);
+    }
   }
 }
 
@@ -93,16 +127,7 @@ std::optional<fs::path> ModelPaths::find_loosely(const fs::path& folder, const f
   return descend(model->second, relative.lexically_relative(name));
 }
 
-std::optional<fs::path> ModelPaths::find(const std::string& uri, const fs::path& naming_folder) {
-  const std::size_t scheme_end = uri.find("://");
-  const bool is_path = scheme_end == std::string::npos || uri.starts_with("file://");
-  const fs::path named = scheme_end == std::string::npos
-                             ? uri
-                             : uri.substr(scheme_end + std::string_view("://").size());
-  // An absolute path replaces the folder that it is appended to.
-  if (is_path && is_there(naming_folder / named)) return naming_folder / named;
-  const fs::path relative = named.relative_path().lexically_normal();
-  if (relative.empty()) return std::nullopt;
+std::optional<fs::path> ModelPaths::find_below(const fs::path& relative) {
   for (const fs::path& folder : folders_) {
     if (is_there(folder / relative)) return folder / relative;
   }
@@ -110,6 +135,48 @@ std::optional<fs::path> ModelPaths::find(const std::string& uri, const fs::path&
     if (auto found = find_loosely(folder, relative)) return found;
   }
   return std::nullopt;
+}
+
+std::optional<fs::path> ModelPaths::find_in_fuel_caches(const FuelAddress& address) const {
+  for (const fs::path& cache : fuel_caches_) {
+    std::vector<fs::path> hosts = entries(cache);
+    // Fuel has moved: the same model may lie under the older name of its host.
+    std::ranges::stable_partition(hosts,
+                                  [&](const fs::path& h) { return h.filename() == address.host; });
+    for (const fs::path& host : hosts) {
+      const auto model = descend(host, fs::path(address.owner) / "models" / address.name);
+      const auto version = model ? version_in(*model, address.version) : std::nullopt;
+      if (!version) continue;
+      if (auto found = descend(*version, address.rest)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<fs::path> ModelPaths::find(const std::string& uri, const fs::path& naming_folder) {
+  const auto [known, is_new] = found_.try_emplace({uri, naming_folder});
+  if (is_new) known->second = search(uri, naming_folder);
+  return known->second;
+}
+
+std::optional<fs::path> ModelPaths::search(const std::string& uri, const fs::path& naming_folder) {
+  const fs::path named = path_of(uri);
+  if (named.relative_path().empty()) return std::nullopt;
+  // An absolute path replaces the folder that it is appended to.
+  if (is_path(uri) && is_there(naming_folder / named)) return naming_folder / named;
+  for (const fs::path& relative : paths_below(uri)) {
+    if (auto found = find_below(relative)) return found;
+  }
+  const std::optional<FuelAddress> address = fuel_address(uri);
+  return address ? find_in_fuel_caches(*address) : std::nullopt;
+}
+
+std::string ModelPaths::advice(const std::string& uri) {
+  if (fuel_address(uri)) {
+    return "give the folder of its model as a model path, or download it before (`gz fuel download "
+           "-u` with its address)";
+  }
+  return "give the folder of its model as a model path";
 }
 
 }  // namespace nbvopt

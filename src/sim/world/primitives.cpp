@@ -93,6 +93,11 @@ TriangleMesh cylinder_mesh(double radius_m, double length_m) {
   return turned({{0.0, -half_m}, {radius_m, -half_m}, {radius_m, half_m}, {0.0, half_m}});
 }
 
+TriangleMesh cone_mesh(double radius_m, double length_m) {
+  const double half_m = 0.5 * length_m;
+  return turned({{0.0, -half_m}, {radius_m, -half_m}, {0.0, half_m}});
+}
+
 TriangleMesh capsule_mesh(double radius_m, double length_m) {
   std::vector<Eigen::Vector2d> profile_m;
   append_arc(-0.5 * std::numbers::pi, radius_m, -0.5 * length_m, profile_m);

@@ -12,6 +12,7 @@ TriangleMesh box_mesh(const Eigen::Vector3d& size_m);
 /// Round shapes have 64 sides, inscribed: a radius of 1 m is met within 1.3 mm.
 TriangleMesh ellipsoid_mesh(const Eigen::Vector3d& radii_m);
 TriangleMesh cylinder_mesh(double radius_m, double length_m);  ///< along z
+TriangleMesh cone_mesh(double radius_m, double length_m);      ///< along z, its tip up
 TriangleMesh capsule_mesh(double radius_m, double length_m);   ///< along z; of its straight part
 
 /// A rectangle of two triangles, facing along the normal.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "nbvopt/sim/world.hpp"
@@ -17,10 +18,11 @@ struct SdfWorld {
   std::uint64_t nested_models = 0;  ///< models within models, at any depth
 };
 
-/// Reads the first world of a file, or its model, and the meshes that it names. Parts that cannot
-/// be had are left out and logged. A saved <state> is not applied: models stand where they are
-/// declared. Throws as read_sdf_document() does.
-SdfWorld read_sdf_world(const std::filesystem::path& path, const WorldOptions& options,
-                        WorldLog& log);
+/// Reads the first world of a text, or its model, and the files that it names. A part that cannot
+/// be had, or has a bad value, is left out and logged; a saved <state> is applied. Throws
+/// InputError that names the file when it is no XML, or holds neither a world nor a model; or when
+/// it would grow too large.
+SdfWorld read_sdf_world(const std::string& text, const std::filesystem::path& path,
+                        const WorldOptions& options, WorldLog& log);
 
 }  // namespace nbvopt

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input_file.hpp"
+#include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/world/append_mesh.hpp"
 #include "sim/world/lower_case.hpp"
@@ -36,8 +37,10 @@ FileKind kind_of(const fs::path& path) {
 }
 
 SdfWorld read_parts(const fs::path& path, const WorldOptions& options, WorldLog& log) {
-  if (kind_of(path) == FileKind::sdf) return read_sdf_world(path, options, log);
   log.read(path);
+  if (kind_of(path) == FileKind::sdf) {
+    return read_sdf_world(read_text_file(path), path, options, log);
+  }
   SdfWorld world;
   world.parts.push_back({.model = path.stem().string(), .mesh = read_mesh_file(path, {})});
   return world;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic{'n', 'b', 'v', 'w', 'o', 'r', 'l', 'd'};
 /// To be raised when the format changes, or worlds are built differently from the same files.
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 2;
 
 /// FNV-1a, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {

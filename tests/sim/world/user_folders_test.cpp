@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "nbvopt/sim/world.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nbvopt {
 namespace {
@@ -26,9 +27,19 @@ class UserFolders : public testing::Test {
 };
 
 TEST_F(UserFolders, ModelsLieWhereGazeboLooks) {
-  setenv("GAZEBO_MODEL_PATH", ":/a/models::/b:", 1);
-  EXPECT_THAT(gazebo_model_paths(), ElementsAre(fs::path("/a/models"), fs::path("/b")));
+  const test::TemporaryFolder home;
+  const fs::path a = home.path() / "a";
+  const fs::path b = home.path() / "b";
+  const fs::path own = home.path() / ".gazebo" / "models";
+  for (const fs::path& folder : {a, b, own}) fs::create_directories(folder);
+  setenv("HOME", home.path().c_str(), 1);
+  setenv("GAZEBO_MODEL_PATH", (":" + a.string() + "::/not/there:").c_str(), 1);
+  setenv("GZ_SIM_RESOURCE_PATH", (b.string() + ":" + a.string()).c_str(), 1);
+  EXPECT_THAT(gazebo_model_paths(), ElementsAre(a, b, own));
   unsetenv("GAZEBO_MODEL_PATH");
+  unsetenv("GZ_SIM_RESOURCE_PATH");
+  EXPECT_THAT(gazebo_model_paths(), ElementsAre(own));
+  fs::remove_all(own);
   EXPECT_THAT(gazebo_model_paths(), IsEmpty());
 }
 

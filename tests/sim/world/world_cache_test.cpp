@@ -28,15 +28,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A world of one mesh in a model and a polyline that is left out, read with a cache.
+/// A world of one mesh in a model and a shape that is left out, read with a cache.
 class WorldCacheTest : public testing::Test {
  protected:
   WorldCacheTest()
       : model_(folder_.add_model("m", link_with(mesh("model://m/t.stl")))),
         mesh_(folder_.add_file("models/m/t.stl", test::triangle_stl())),
         world_(folder_.add_world(include("model://m") + "<model name='p'>" +
-                                 link_with("<polyline><height>1</height></polyline>") +
-                                 "</model>")) {}
+                                 link_with("<image><height>1</height></image>") + "</model>")) {}
 
   World read(WorldOptions options = {}) const {
     options.cache_folder = cache();
@@ -90,7 +89,7 @@ TEST_F(WorldCacheTest, GivesTheSameWorldToTheBit) {
   EXPECT_EQ(kept.models, built.models);
   EXPECT_EQ(kept.nested_models, built.nested_models);
   EXPECT_EQ(kept.warnings, built.warnings);
-  EXPECT_THAT(kept.warnings, ElementsAre(HasSubstr("'polyline' is left out")));
+  EXPECT_THAT(kept.warnings, ElementsAre(HasSubstr("'image' is left out")));
 }
 
 TEST_F(WorldCacheTest, ReadsTheKeptWorldAndNotTheFiles) {
@@ -137,7 +136,7 @@ TEST_F(WorldCacheTest, IsAsStrictOverKeptWorlds) {
   read();
   ASSERT_EQ(kept().size(), 1U);
   EXPECT_THAT(test::message_of<InputError>([&] { read({.is_strict = true}); }),
-              HasSubstr("'polyline' is left out"));
+              HasSubstr("'image' is left out"));
 }
 
 TEST_F(WorldCacheTest, SeesAMissingMeshAppear) {

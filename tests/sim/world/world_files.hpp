@@ -81,6 +81,11 @@ inline Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
   return box;
 }
 
+/// The middle of a mesh's box, rounded to a tenth of a millimetre: where a box of the test stands.
+inline Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
+  return (box_of(mesh).center() * 1e4).array().round().matrix() * 1e-4;
+}
+
 /// Whether a mesh has a vertex here, within a hundredth of a millimetre.
 inline bool has_vertex(const TriangleMesh& mesh, const Eigen::Vector3d& position_m) {
   return std::ranges::any_of(mesh.vertices_m, [&](const Eigen::Vector3f& vertex_m) {

@@ -174,7 +174,7 @@ TEST(World, ResolvesPosesGivenInOtherFrames) {
   expect_box(world.bounds_m, {9.5, 0.5, 2.0}, {10.5, 1.5, 3.0});
 }
 
-TEST(World, MixesVersionsReadsCrlfAndIgnoresCommentsAndSavedStates) {
+TEST(World, MixesVersionsReadsCrlfAndIgnoresComments) {
   const WorldFolder folder;
   for (const std::string version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9"}) {
     folder.add_model("v" + version, link_with(box("1 1 1")), version);
@@ -184,9 +184,6 @@ TEST(World, MixesVersionsReadsCrlfAndIgnoresCommentsAndSavedStates) {
     body += include("model://v1." + number, "<pose>" + number + " 0 0 0 0 0</pose>") + "\r\n";
   }
   body += "<!-- <model name='ceiling'>" + link_with(box("50 50 50")) + "</model> -->\r\n";
-  body +=
-      "<state world_name='test'>\r\n<model name='v1.4'><pose>99 0 0 0 0 0</pose>"
-      "</model></state>\r\n";
   for (const std::string version : {"1.4", "1.6", "1.9"}) {
     const World world = read_world(folder.add_world(body, version), {});
     EXPECT_EQ(world.models, 6U) << version;
@@ -204,19 +201,6 @@ TEST(World, ReadsACommentBeforeTheDeclaration) {
   EXPECT_EQ(read_world(path, {}).mesh.triangles.size(), 12U);
 }
 
-TEST(World, LoadsWholeWhenAnInertiaIsInvalid) {
-  const WorldFolder folder;
-  folder.add_model("heavy",
-                   "<link name='link'><inertial><mass>30</mass><inertia><ixx>900</ixx>"
-                   "<iyy>1</iyy><izz>1</izz></inertia></inertial><visual name='v'>"
-                   "<geometry>" +
-                       box("1 1 1") + "</geometry></visual></link>");
-  const auto path = folder.add_world(include("model://heavy"));
-  const World world = read_world(path, {.is_strict = true});
-  EXPECT_EQ(world.mesh.triangles.size(), 12U);
-  EXPECT_THAT(world.warnings, ElementsAre(HasSubstr("invalid inertia")));
-}
-
 TEST(World, LoadsWithoutWhatIsMissingAndRefusesWhenStrict) {
   const std::tuple<std::string, std::string, std::string> cases[] = {
       {include("model://absent"), "model://absent", "is not found"},
@@ -225,11 +209,14 @@ TEST(World, LoadsWithoutWhatIsMissingAndRefusesWhenStrict) {
       {"<model name='bad'>" + link_with(mesh("model://there/broken.dae")) + "</model>",
        "model 'bad': mesh is left out", "broken.dae: cannot be read as a mesh"},
       {include("model://nests"), "model://absent_too", "is not found"},
-      {"<model name='bad'>" +
-           link_with("<polyline><point>0 0</point><point>1 0</point><point>0 1</point>"
-                     "<height>1</height></polyline>") +
-           "</model>",
-       "model 'bad'", "'polyline' is left out"},
+      {"<model name='bad'>" + link_with("<image><uri>x.png</uri></image>") + "</model>",
+       "model 'bad'", "'image' is left out"},
+      {"<model name='bad'>" + link_with(box("1 1")) + "</model>",
+       "model 'bad': visual 'visual' is left out", "<size> is '1 1', it must be 3 numbers"},
+      {"<model name='bad'><pose relative_to='x'>0 0 0 0 0 0</pose></model>", "the world",
+       "frame 'x' is not known"},
+      {"<road name='r'><width>1</width><point>0 0 0</point><point>1 0 0</point></road>", "road 'r'",
+       "it is flat"},
       {"<actor name='walker'><skin><filename>walk.dae</filename></skin><script><trajectory id='0' "
        "type='walk'><waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint></trajectory>"
        "</script></actor>",
