@@ -69,22 +69,6 @@ VoxelKey clamped_key(const Eigen::Vector3i& key) {
           static_cast<std::uint16_t>(k.z())};
 }
 
-/// The instruction sets that Highway may use at a level, as its bits.
-std::int64_t hwy_targets(SimdLevel level) {
-  switch (level) {
-    case SimdLevel::avx512:
-      return HWY_AVX3;
-    case SimdLevel::avx2:
-      return HWY_AVX2;
-    case SimdLevel::sse4:
-      return HWY_SSE4;
-    case SimdLevel::best:
-    case SimdLevel::scalar:
-      break;
-  }
-  return 0;
-}
-
 }  // namespace
 
 RayBundle make_bundle(const CameraRays& rays, const Transform& T_map_sensor, bool near_blocking) {
@@ -107,7 +91,8 @@ const char* to_string(SimdLevel level) { return enum_name(level).data(); }
 std::vector<SimdLevel> supported_simd_levels() {
   std::vector<SimdLevel> levels;
   for (const SimdLevel level : {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::sse4}) {
-    if ((detail::simd_kernel_targets() & hwy::SupportedTargets() & hwy_targets(level)) != 0) {
+    if ((detail::simd_kernel_targets() & hwy::SupportedTargets() & detail::hwy_targets(level)) !=
+        0) {
       levels.push_back(level);
     }
   }
@@ -115,16 +100,11 @@ std::vector<SimdLevel> supported_simd_levels() {
   return levels;
 }
 
-void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
-               RayHits& hits, SimdLevel level) {
-  detail::check_camera_pose(rays.T_map_rays, grid.lattice());
-  hits.resize(rays.size());
-  const detail::CasterKernel kernel = level == SimdLevel::scalar
-                                          ? detail::scalar_kernel()
-                                          : detail::simd_kernel(hwy_targets(level));
-  const detail::RayBounds bounds = kernel.rotate_and_bound(rays, hits);
+namespace detail {
 
-  detail::RayWalk walk;
+RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+                  const RayBounds& bounds) {
+  RayWalk walk;
   walk.rays = &rays;
   walk.resolution_m = grid.lattice().resolution_m();
   const Eigen::Vector3d origin_lattice = grid.lattice().to_lattice(rays.T_map_rays.translation());
@@ -143,7 +123,35 @@ void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_unc
         keys_of(origin_lattice, bounds.near_min, bounds.near_max, walk.resolution_m);
     walk.walk_near = grid.any_occupied({clamped_key(near_low), clamped_key(near_high)});
   }
-  kernel.walk(walk, hits);
+  return walk;
+}
+
+std::int64_t hwy_targets(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::avx512:
+      return HWY_AVX3;
+    case SimdLevel::avx2:
+      return HWY_AVX2;
+    case SimdLevel::sse4:
+      return HWY_SSE4;
+    case SimdLevel::best:
+    case SimdLevel::scalar:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace detail
+
+void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+               RayHits& hits, SimdLevel level) {
+  detail::check_camera_pose(rays.T_map_rays, grid.lattice());
+  hits.resize(rays.size());
+  const detail::CasterKernel kernel = level == SimdLevel::scalar
+                                          ? detail::scalar_kernel()
+                                          : detail::simd_kernel(detail::hwy_targets(level));
+  const detail::RayBounds bounds = kernel.rotate_and_bound(rays, hits);
+  kernel.walk(detail::make_walk(grid, rays, occupied_uncertainty, bounds), hits);
 }
 
 }  // namespace nbvopt

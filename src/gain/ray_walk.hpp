@@ -49,6 +49,13 @@ struct RayWalk {
   double occupied_uncertainty = 1.0;  ///< u of occupied voxels in bricks that store none
 };
 
+/// Makes the bricks in the rays' bounds ready.
+RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+                  const RayBounds& bounds);
+
+/// The instruction sets that Highway may use at a level, as its bits; 0: any.
+std::int64_t hwy_targets(SimdLevel level);
+
 /// An implementation of the caster. Walking is mirrored: along each axis that a ray goes down,
 /// coordinates are negated and a voxel v becomes ~v, so that every ray goes up.
 struct CasterKernel {

@@ -70,12 +70,26 @@ struct BrickStates {
   void finish(const float* uncertainty_of_voxels);
 };
 
-/// One byte a voxel tells a ray what to do. A free voxel holds 1 + r, r the radius of a cube
-/// around it that holds free voxels only (Chebyshev distance, rounded down to a listed radius):
-/// a ray inside it may leap to the cube's surface.
+/// One byte a voxel tells a ray what to do. The lower five bits of a free voxel hold 1 + r, r the
+/// radius of a cube around it that holds free voxels only (Chebyshev distance, rounded down to a
+/// listed radius): a ray inside it may leap to the cube's surface.
+///
+/// Of voxels at the edge of what is known the code tells which faces they share: an unknown voxel
+/// has kBesideSurfaceBit where one of its six neighbours is occupied; a free voxel with an unknown
+/// neighbour has kFrontierBit, and kFrontierBesideSurfaceBit too where another is occupied. In a
+/// brick of which nothing is known no voxel has them.
 inline constexpr std::uint8_t kUnknownCode = 0x80;
 inline constexpr std::uint8_t kOccupiedCode = 0xC0;
+inline constexpr std::uint8_t kLeapMask = 0x1F;
+inline constexpr std::uint8_t kBesideSurfaceBit = 0x20;
+inline constexpr std::uint8_t kFrontierBit = 0x20;
+inline constexpr std::uint8_t kFrontierBesideSurfaceBit = 0x40;
 inline constexpr bool is_free_code(std::uint8_t code) { return code < kUnknownCode; }
+inline constexpr bool is_unknown_code(std::uint8_t code) {
+  return !is_free_code(code) && code != kOccupiedCode;
+}
+/// The radius of the cube that a free voxel's code speaks for.
+inline constexpr int leap_radius(std::uint8_t code) { return (code & kLeapMask) - 1; }
 
 /// Where a voxel's code stands in its brick: cubes of 4 x 4 x 4 voxels fill a cache line each,
 /// since neighbouring rays look at neighbouring voxels.

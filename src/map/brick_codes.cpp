@@ -22,6 +22,12 @@ static_assert(kWindow == 64, "a row of the window is one 64-bit word");
 /// Rows of the window, y running fastest.
 using BitWindow = std::array<std::uint64_t, kWindow * kWindow>;
 
+/// The bits of a brick's voxels that tell of their neighbours, a word a row.
+struct EdgeRows {
+  std::array<std::uint32_t, kBrickRows> first;   ///< kBesideSurfaceBit or kFrontierBit
+  std::array<std::uint32_t, kBrickRows> second;  ///< kFrontierBesideSurfaceBit
+};
+
 /// How the eroded sets follow from each other: set i is set `from` eroded by `by` more voxels.
 /// Two erosions by radius r and s make one by r + s; a set already eroded by R may be eroded by
 /// s <= 2 R + 1 with three samples an axis, since cubes of radius R that far apart still touch.
@@ -78,7 +84,8 @@ void erode(const BitWindow& in, std::size_t by, std::size_t radius, BitWindow& a
   and_three(along_y, radius * kWindow, in.size() - radius * kWindow, by * kWindow, out);
 }
 
-/// Bits of a code: five for a free voxel's leap, then occupied, then not free.
+/// Bits of a code: five for a free voxel's leap, then those of the edge of what is known, of which
+/// the second is that of occupied voxels as well, then not free.
 constexpr int kLeapBits = 5;
 constexpr int kCodeBits = 8;
 
@@ -114,18 +121,19 @@ HWY_INLINE void leap_planes(const std::array<BitWindow, 1 + kErosions.size()>& s
 }
 
 /// One byte a voxel, in the order of code_index().
-void expand(const std::array<BitPlane, kLeapBits>& leap, const BrickStates& states,
-            std::uint8_t* code) {
+void expand(const std::array<BitPlane, kLeapBits>& leap, const EdgeRows& edge,
+            const BrickStates& states, std::uint8_t* code) {
   const hn::CappedTag<std::uint8_t, kBrickSize> d;
   for (int row = 0; row < kBrickRows; ++row) {
     std::array<std::uint64_t, kCodeBits> bits{};
     for (int b = 0; b < kLeapBits; ++b) bits[b] = leap[b][row];
-    bits[6] = states.occupied[row];
+    bits[5] = edge.first[row];
+    bits[6] = states.occupied[row] | edge.second[row];
     bits[7] = ~states.free[row];
     alignas(32) std::array<std::uint8_t, kBrickSize> codes;
     for (std::size_t x = 0; x < kBrickSize; x += hn::Lanes(d)) {
       auto value = hn::Zero(d);
-      for (const int b : {0, 1, 2, 3, 4, 6, 7}) {
+      for (int b = 0; b < kCodeBits; ++b) {
         const std::uint64_t word = bits[b] >> x;  // LoadMaskBits reads eight bytes
         const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&word));
         value = hn::Or(value, hn::IfThenElseZero(mask, hn::Set(d, std::uint8_t(1U << b))));
@@ -141,7 +149,8 @@ void expand(const std::array<BitPlane, kLeapBits>& leap, const BrickStates& stat
   }
 }
 
-void compute_window_codes(const BitWindow& free, const BrickStates& states, std::uint8_t* code) {
+void compute_window_codes(const BitWindow& free, const EdgeRows& edge, const BrickStates& states,
+                          std::uint8_t* code) {
   // Kept a thread: what is written anew needs no clearing.
   thread_local std::array<BitWindow, 1 + kErosions.size()> sets;
   thread_local BitWindow along_x, along_y;
@@ -152,7 +161,7 @@ void compute_window_codes(const BitWindow& free, const BrickStates& states, std:
   }
   std::array<BitPlane, kLeapBits> leap;
   leap_planes(sets, leap, std::make_index_sequence<1 + kErosions.size()>());
-  expand(leap, states, code);
+  expand(leap, edge, states, code);
 }
 
 }  // namespace nbvopt::detail::HWY_NAMESPACE
@@ -182,10 +191,58 @@ BitWindow free_window(const BrickNeighbourhood& neighbourhood) {
   return window;
 }
 
+/// The brick with one voxel more all around: rows of 34 bits, y running fastest.
+constexpr int kRim = kBrickSize + 2;
+using RimRows = std::array<std::uint64_t, kRim * kRim>;
+
+/// Where a voxel is occupied, and where it is unknown.
+void fill_rim(const BrickNeighbourhood& neighbourhood, RimRows& occupied, RimRows& unknown) {
+  for (int z = 0; z < kRim; ++z) {
+    const int key_z = z + kBrickSize - 1;  // counted from the lower neighbour's start
+    for (int y = 0; y < kRim; ++y) {
+      const int key_y = y + kBrickSize - 1;
+      const int row = (key_y & kBrickMask) | (key_z & kBrickMask) << kBrickBits;
+      const BrickStates* const* three =
+          &neighbourhood[3 * (key_y >> kBrickBits) + 9 * (key_z >> kBrickBits)];
+      const auto joined = [&](const auto& bits_of) {
+        return std::uint64_t{bits_of(*three[0])} >> (kBrickSize - 1) |
+               std::uint64_t{bits_of(*three[1])} << 1 |
+               std::uint64_t{bits_of(*three[2]) & 1U} << (kBrickSize + 1);
+      };
+      occupied[z * kRim + y] = joined([&](const BrickStates& s) { return s.occupied[row]; });
+      unknown[z * kRim + y] =
+          joined([&](const BrickStates& s) { return ~(s.occupied[row] | s.free[row]); });
+    }
+  }
+}
+
+/// The voxels of which a face neighbour is set.
+std::uint32_t with_neighbour(const RimRows& rows, int i) {
+  const std::uint64_t any =
+      rows[i] << 1 | rows[i] >> 1 | rows[i - 1] | rows[i + 1] | rows[i - kRim] | rows[i + kRim];
+  return static_cast<std::uint32_t>(any >> 1);
+}
+
+EdgeRows edge_rows(const BrickNeighbourhood& neighbourhood) {
+  thread_local RimRows occupied, unknown;
+  fill_rim(neighbourhood, occupied, unknown);
+  const BrickStates& states = *neighbourhood[13];
+  EdgeRows edge;
+  for (int row = 0; row < kBrickRows; ++row) {
+    const int i = (row >> kBrickBits) * kRim + kRim + (row & kBrickMask) + 1;
+    const std::uint32_t beside_surface = with_neighbour(occupied, i);
+    const std::uint32_t frontier = states.free[row] & with_neighbour(unknown, i);
+    edge.first[row] = frontier | (beside_surface & ~(states.free[row] | states.occupied[row]));
+    edge.second[row] = frontier & beside_surface;
+  }
+  return edge;
+}
+
 }  // namespace
 
 void compute_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code) {
-  HWY_DYNAMIC_DISPATCH(compute_window_codes)(free_window(neighbourhood), *neighbourhood[13], code);
+  HWY_DYNAMIC_DISPATCH(compute_window_codes)
+  (free_window(neighbourhood), edge_rows(neighbourhood), *neighbourhood[13], code);
 }
 
 }  // namespace nbvopt::detail

@@ -217,11 +217,14 @@ BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> 
     states[brick] = with_changes(before, own_changes);
     to_code.insert(brick);
     for (const VoxelChange& change : own_changes) {
-      const bool was_free = before.state(change.key) == VoxelState::free;
-      if (was_free == (change.state == VoxelState::free)) continue;
-      const auto low = [](int key) { return std::max(key - kCodeReach, 0) >> kBrickBits; };
-      const auto high = [](int key) {
-        return std::min((key + kCodeReach) >> kBrickBits, kBrickKeys - 1);
+      const VoxelState was = before.state(change.key);
+      if (was == change.state) continue;
+      // Leaps reach far; what lies at the edge of the known concerns direct neighbours.
+      const bool moves_leaps = (was == VoxelState::free) != (change.state == VoxelState::free);
+      const int code_reach = moves_leaps ? kCodeReach : 1;
+      const auto low = [&](int key) { return std::max(key - code_reach, 0) >> kBrickBits; };
+      const auto high = [&](int key) {
+        return std::min((key + code_reach) >> kBrickBits, kBrickKeys - 1);
       };
       const BrickBox reach{{low(change.key.x), low(change.key.y), low(change.key.z)},
                            {high(change.key.x), high(change.key.y), high(change.key.z)}};

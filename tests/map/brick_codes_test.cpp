@@ -49,6 +49,13 @@ class Neighbourhood {
     return states_[brick(x) + 3 * brick(y) + 9 * brick(z)]->state(key);
   }
 
+  /// Whether a voxel shares a face with one of this state.
+  bool touches(int x, int y, int z, VoxelState wanted) const {
+    return state(x - 1, y, z) == wanted || state(x + 1, y, z) == wanted ||
+           state(x, y - 1, z) == wanted || state(x, y + 1, z) == wanted ||
+           state(x, y, z - 1) == wanted || state(x, y, z + 1) == wanted;
+  }
+
   /// The Chebyshev distance from a voxel to the nearest one that is not free, at most 17.
   int distance_to_non_free(int x, int y, int z) const {
     for (int r = 0; r <= kCodeReach; ++r) {
@@ -70,7 +77,7 @@ class Neighbourhood {
 
 class BrickCodes : public ::testing::TestWithParam<double> {};
 
-TEST_P(BrickCodes, TellTheLargestListedCubeThatIsFree) {
+TEST_P(BrickCodes, TellTheLargestListedCubeThatIsFreeAndTheEdgeOfTheKnown) {
   const Neighbourhood neighbourhood(7, GetParam());
   std::vector<std::uint8_t> code(kBrickVoxels);
   compute_codes(neighbourhood.bricks(), code.data());
@@ -82,14 +89,19 @@ TEST_P(BrickCodes, TellTheLargestListedCubeThatIsFree) {
         const std::uint8_t got = code[code_index(key)];
         const VoxelState state = neighbourhood.state(x, y, z);
         if (state == VoxelState::unknown) {
-          ASSERT_EQ(got, kUnknownCode);
+          const bool beside = neighbourhood.touches(x, y, z, VoxelState::occupied);
+          ASSERT_EQ(got, kUnknownCode | (beside ? kBesideSurfaceBit : 0));
         } else if (state == VoxelState::occupied) {
           ASSERT_EQ(got, kOccupiedCode);
         } else {
           const int free_radius = neighbourhood.distance_to_non_free(x, y, z) - 1;
           const int listed =
               *std::prev(std::upper_bound(kRadii.begin(), kRadii.end(), free_radius));
-          ASSERT_EQ(int{got}, 1 + listed) << "at " << x << ' ' << y << ' ' << z;
+          const bool frontier = neighbourhood.touches(x, y, z, VoxelState::unknown);
+          const bool beside = neighbourhood.touches(x, y, z, VoxelState::occupied);
+          ASSERT_EQ(int{got}, (1 + listed) | (frontier ? kFrontierBit : 0) |
+                                  (frontier && beside ? kFrontierBesideSurfaceBit : 0))
+              << "at " << x << ' ' << y << ' ' << z;
         }
       }
     }

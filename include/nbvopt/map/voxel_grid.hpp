@@ -30,7 +30,7 @@ class VoxelGrid {
                                                 std::uint64_t version = 1);
 
   /// The next version: this grid with the changes that a scan made. Bricks without a change, and
-  /// away from any change between free and not free, are shared. Throws UsageError on a lazy grid.
+  /// away from any change of state, are shared. Throws UsageError on a lazy grid.
   std::shared_ptr<const VoxelGrid> updated(std::span<const VoxelChange> changes) const;
 
   /// 1 for a grid made from a map unless said otherwise, one more a call to updated().
