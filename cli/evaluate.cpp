@@ -52,7 +52,7 @@ void run_evaluate(const EvaluateOptions& options) {
   Robot robot = make_robot(options.view);
   const PoseFile poses = read_pose_file(options.pose_file, robot);
   robot.sensor = poses.sensor;
-  set_counting(robot.sensor, options.view);
+  set_counting_and_gain(robot.sensor, options.view);
   const ThreadLimit thread_limit(options.view);
 
   const Stopwatch loading;

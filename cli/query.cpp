@@ -21,7 +21,7 @@ namespace {
 
 Robot robot_of(const QueryOptions& options) {
   Robot robot = make_robot(options.view);
-  set_counting(robot.sensor, options.view);
+  set_counting_and_gain(robot.sensor, options.view);
   if (options.occupied_uncertainty) {
     const std::vector<FieldSetting> settings{
         {"occupied_uncertainty", *options.occupied_uncertainty}};

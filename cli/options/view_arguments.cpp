@@ -9,11 +9,24 @@
 #include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
+namespace {
+
+void set_gain(SensorOptions& sensor, const RobotArguments& arguments) {
+  if (arguments.gain.empty()) return;
+  sensor.gain = enum_value<GainKind>(arguments.gain).value();
+}
+
+}  // namespace
 
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--robot", arguments.robot_file,
                  "robot and sensor, a YAML file [the paper's platform]")
       ->type_name("FILE");
+  app.add_option("--gain", arguments.gain,
+                 "positive: the first unknown voxel is a surface (Eq. 12); expected: surfaces come "
+                 "with probabilities, learnt where scans are inserted [as the robot says]")
+      ->check(CLI::IsMember(enum_names<GainKind>()))
+      ->type_name("NAME");
   add_whole_number(app, "--threads", arguments.threads, 0, 1024,
                    "most threads to use; 0: all cores. Answers do not depend on it");
 }
@@ -38,7 +51,9 @@ ThreadLimit::ThreadLimit(const RobotArguments& arguments) {
 }
 
 Robot make_robot(const RobotArguments& arguments) {
-  return arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+  Robot robot = arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+  set_gain(robot.sensor, arguments);
+  return robot;
 }
 
 Robot make_robot(const ViewArguments& arguments) {
@@ -47,7 +62,8 @@ Robot make_robot(const ViewArguments& arguments) {
   return robot;
 }
 
-void set_counting(SensorOptions& sensor, const ViewArguments& arguments) {
+void set_counting_and_gain(SensorOptions& sensor, const ViewArguments& arguments) {
+  set_gain(sensor, arguments);
   if (arguments.counting.empty()) return;
   sensor.counting = enum_value<Counting>(arguments.counting).value();
 }

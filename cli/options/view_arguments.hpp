@@ -15,6 +15,7 @@ namespace nbvopt {
 /// What every command that has a robot asks for.
 struct RobotArguments {
   std::string robot_file;  ///< empty: the paper's platform
+  std::string gain;        ///< empty: as the robot says
   std::int64_t threads = 0;
 };
 
@@ -35,13 +36,13 @@ class ThreadLimit {
   std::optional<tbb::global_control> limit_;  ///< none: all cores
 };
 
-/// The robot of the file.
+/// The robot of the file, with the gain that was asked for.
 Robot make_robot(const RobotArguments& arguments);
 
 /// The same, its sensor as the evaluator wants it.
 Robot make_robot(const ViewArguments& arguments);
 
-/// Sets the counting that was asked for, if any: the command line wins over files.
-void set_counting(SensorOptions& sensor, const ViewArguments& arguments);
+/// Sets counting and gain where they were asked for: the command line wins over files.
+void set_counting_and_gain(SensorOptions& sensor, const ViewArguments& arguments);
 
 }  // namespace nbvopt

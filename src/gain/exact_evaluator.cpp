@@ -40,4 +40,13 @@ std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelG
   return std::make_unique<ExactEvaluator>(std::move(grid), camera, gain_model, level);
 }
 
+std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelGrid> grid,
+                                                    const DepthCamera& camera,
+                                                    const HazardTable& hazards) {
+  if (camera.options().gain == GainKind::expected) {
+    return make_expected_evaluator(std::move(grid), camera, hazards);
+  }
+  return make_exact_evaluator(std::move(grid), camera);
+}
+
 }  // namespace nbvopt

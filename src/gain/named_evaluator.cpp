@@ -27,8 +27,14 @@ SensorOptions evaluator_sensor(const std::string& name, const SensorOptions& sen
 
 std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const UncertaintyMap& map,
                                               std::shared_ptr<const VoxelGrid> grid,
-                                              const SensorOptions& sensor) {
-  if (!is_paper_code(name)) return make_exact_evaluator(std::move(grid), DepthCamera(sensor));
+                                              const SensorOptions& sensor,
+                                              const HazardTable& hazards) {
+  if (!is_paper_code(name)) {
+    return make_exact_evaluator(std::move(grid), DepthCamera(sensor), hazards);
+  }
+  if (sensor.gain == GainKind::expected) {
+    throw UsageError("the paper-code evaluator has no expected gain, use the evaluator exact");
+  }
   if (sensor.counting == Counting::per_voxel) {
     throw UsageError("the paper-code evaluator counts per_ray only, use the evaluator exact");
   }

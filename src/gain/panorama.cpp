@@ -84,7 +84,7 @@ void PanoramaOptions::validate() const {
 class Panorama::Impl {
  public:
   Impl(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor, const MovingMast& mast,
-       const JointBox& box, const PanoramaOptions& options)
+       const JointBox& box, const PanoramaOptions& options, const HazardTable& hazards)
       : grid_(std::move(grid)),
         mast_(mast),
         counting_(sensor.counting),
@@ -95,6 +95,7 @@ class Panorama::Impl {
         layer_spacing_m_(layer_spacing_m(grid_->lattice().resolution_m(), options)),
         longest_time_s_(mast.longest_arrival_time_s(box)),
         rays_per_patch_(detail::HitBlock::kSize * options.ray_spacing * options.ray_spacing),
+        passage_{hazards, sensor.focal_distance_m, false},
         directions_(directions(box, options)),
         heights_(box.min[2], box.max[2], layer_spacing_m_),
         times_(0.0, longest_time_s_, time_spacing_s()),
@@ -109,7 +110,8 @@ class Panorama::Impl {
                 .focal_distance_m = model_.focal_distance_m,
                 .farthest_view_m = farthest_view_m(),
                 .per_voxel = counting_ == Counting::per_voxel,
-                .has_lever = lever_m().squaredNorm() > 0.0},
+                .has_lever = lever_m().squaredNorm() > 0.0,
+                .passage = sensor.gain == GainKind::expected ? &passage_ : nullptr},
         layers_(static_cast<std::size_t>(heights_.count) * static_cast<std::size_t>(times_.count)) {
   }
 
@@ -124,7 +126,9 @@ class Panorama::Impl {
     for_each_layer(q, smoothing,
                    [&](const LayerWeight& weight, const PanoramaLayer& layer,
                        const PanoramaView& view, std::span<const std::uint32_t> ids) {
-                     const PanoramaSum sum = layer_sum(layer, view, ids, gradient != nullptr);
+                     thread_local std::vector<std::uint32_t> blocks;
+                     layer.blocks_of(ids, blocks);
+                     const PanoramaSum sum = layer_sum(layer, view, blocks, gradient != nullptr);
                      gain += weight.weight * sum.gain;
                      if (gradient) *gradient += weighted_gradient(weight, sum, motion);
                    });
@@ -151,7 +155,9 @@ class Panorama::Impl {
                    [&](const LayerWeight& weight, const PanoramaLayer& layer,
                        const PanoramaView& view, std::span<const std::uint32_t> ids) {
                      for (const std::uint32_t id : ids) {
-                       const PanoramaSum sum = layer_sum(layer, view, std::span(&id, 1), true);
+                       thread_local std::vector<std::uint32_t> blocks;
+                       layer.blocks_of(std::span(&id, 1), blocks);
+                       const PanoramaSum sum = layer_sum(layer, view, blocks, true);
                        gains[id] += weight.weight * sum.gain;
                        if (derivatives)
                          derivatives->row(id) += weighted_gradient(weight, sum, motion).transpose();
@@ -242,14 +248,14 @@ class Panorama::Impl {
     return *layer;
   }
 
-  /// The sum over patches of a layer; its derivatives are 0 unless they are asked for.
+  /// The sum over blocks of a layer; its derivatives are 0 unless they are asked for.
   PanoramaSum layer_sum(const PanoramaLayer& layer, const PanoramaView& view,
-                        std::span<const std::uint32_t> ids, bool with_motion) const {
+                        std::span<const std::uint32_t> blocks, bool with_motion) const {
     if (counting_ == Counting::per_voxel) {
-      return detail::voxel_sum(kernel_, model_, view, layer, ids, with_motion);
+      return detail::voxel_sum(kernel_, model_, view, layer, blocks, with_motion);
     }
-    if (with_motion) return kernel_.gain_and_motion(model_, view, layer.blocks(), ids);
-    return {.gain = kernel_.gain(model_, view, layer.blocks(), ids)};
+    if (with_motion) return kernel_.gain_and_motion(model_, view, layer.blocks(), blocks);
+    return {.gain = kernel_.gain(model_, view, layer.blocks(), blocks)};
   }
 
   /// By each joint, of the layer's weight times its sum.
@@ -272,6 +278,7 @@ class Panorama::Impl {
   double layer_spacing_m_;
   double longest_time_s_;
   double rays_per_patch_;  ///< of the sensor's
+  detail::PassageModel passage_;
   detail::PanoramaDirections directions_;
   Stations heights_, times_;  ///< of the layers, heights running fastest
   detail::LayerCaster caster_;
@@ -280,10 +287,11 @@ class Panorama::Impl {
 };
 
 Panorama::Panorama(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
-                   const MovingMast& mast, const JointBox& box, const PanoramaOptions& options) {
+                   const MovingMast& mast, const JointBox& box, const PanoramaOptions& options,
+                   const HazardTable& hazards) {
   sensor.validate();
   options.validate();
-  impl_ = std::make_unique<Impl>(std::move(grid), sensor, mast, box, options);
+  impl_ = std::make_unique<Impl>(std::move(grid), sensor, mast, box, options, hazards);
 }
 
 Panorama::~Panorama() = default;

@@ -18,18 +18,18 @@ struct VoxelTally {
 
 PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
                       const PanoramaView& view, const PanoramaLayer& layer,
-                      std::span<const std::uint32_t> ids, bool with_motion) {
+                      std::span<const std::uint32_t> blocks, bool with_motion) {
   thread_local HitTerms terms;
   // Kept from sum to sum, since most of a layer's voxels are out of view.
   thread_local std::vector<VoxelTally> tallies;
   thread_local std::uint64_t sum_number = 0;
   ++sum_number;
-  kernel.terms(model, view, layer.blocks(), ids, terms);
+  kernel.terms(model, view, layer.blocks(), blocks, terms);
 
   const auto for_each_hit = [&](const auto& visit) {
     std::size_t hit = 0;
-    for (const std::uint32_t id : ids) {
-      for (const std::uint32_t voxel : layer.voxels(id)) visit(hit++, voxel);
+    for (const std::uint32_t block : blocks) {
+      for (const std::uint32_t voxel : layer.voxels(block)) visit(hit++, voxel);
     }
   };
   for_each_hit([&](std::size_t hit, std::uint32_t voxel) {
@@ -58,7 +58,7 @@ PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
     terms.rays[hit] = tally.rays < 1.0 ? tally.best_gain : 0.0;
     terms.gain[hit] = is_best ? std::min(1.0, tally.rays) : 0.0;
   });
-  if (with_motion) sum = kernel.motion(model, view, layer.blocks(), ids, terms);
+  if (with_motion) sum = kernel.motion(model, view, layer.blocks(), blocks, terms);
   sum.gain = gain;
   return sum;
 }

@@ -13,6 +13,6 @@ namespace nbvopt::detail {
 /// number of rays on the voxel; with its derivatives where they are asked for.
 PanoramaSum voxel_sum(const PanoramaKernel& kernel, const PanoramaModel& model,
                       const PanoramaView& view, const PanoramaLayer& layer,
-                      std::span<const std::uint32_t> ids, bool with_motion);
+                      std::span<const std::uint32_t> blocks, bool with_motion);
 
 }  // namespace nbvopt::detail

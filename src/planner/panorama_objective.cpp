@@ -11,8 +11,12 @@ constexpr double kResidualFloor = 1e-6;
 PanoramaObjective::PanoramaObjective(std::shared_ptr<const VoxelGrid> grid,
                                      const SensorOptions& sensor, const MovingMast& mast,
                                      const JointBox& box, const PanoramaOptions& options,
-                                     SearchTrace* trace)
-    : JointObjective(mast, sensor, box), grid_(std::move(grid)), options_(options), trace_(trace) {}
+                                     const HazardTable& hazards, SearchTrace* trace)
+    : JointObjective(mast, sensor, box),
+      grid_(std::move(grid)),
+      options_(options),
+      hazards_(hazards),
+      trace_(trace) {}
 
 double PanoramaObjective::value(const Point& x) const {
   return noted(x, panorama().gain(JointPosition::from(x)));
@@ -42,7 +46,7 @@ double PanoramaObjective::value_and_residuals(const Point& x, Eigen::VectorXd& r
 const Panorama& PanoramaObjective::panorama() const {
   std::call_once(made_, [this] {
     panorama_ = std::make_unique<Panorama>(grid_, sensor(), mast(),
-                                           JointBox{box().lower, box().upper}, options_);
+                                           JointBox{box().lower, box().upper}, options_, hazards_);
   });
   return *panorama_;
 }

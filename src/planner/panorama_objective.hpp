@@ -18,7 +18,7 @@ class PanoramaObjective final : public JointObjective {
   /// `trace` may be null. The arguments but grid and options must outlive the objective.
   PanoramaObjective(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
                     const MovingMast& mast, const JointBox& box, const PanoramaOptions& options,
-                    SearchTrace* trace);
+                    const HazardTable& hazards, SearchTrace* trace);
 
   double value(const Point& x) const override;
   bool has_gradient() const override { return true; }
@@ -34,6 +34,7 @@ class PanoramaObjective final : public JointObjective {
 
   std::shared_ptr<const VoxelGrid> grid_;
   PanoramaOptions options_;
+  HazardTable hazards_;
   SearchTrace* trace_;
   mutable std::once_flag made_;
   mutable std::unique_ptr<const Panorama> panorama_;

@@ -71,11 +71,12 @@ bool was_cut_short(SolveStatus status, const StopRule& stop) {
 }  // namespace
 
 Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
-                 std::shared_ptr<const ViewEvaluator> evaluator)
+                 std::shared_ptr<const ViewEvaluator> evaluator, const HazardTable& hazards)
     : mast_(robot.mast),
       sensor_(robot.sensor),
       grid_(std::move(grid)),
-      evaluator_(std::move(evaluator)) {}
+      evaluator_(std::move(evaluator)),
+      hazards_(hazards) {}
 
 PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   PlanResult result;
@@ -92,7 +93,7 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
   const PanoramaObjective surrogate(grid_, sensor_, mast, result.box,
                                     request.surrogate.value_or(planning_panorama(sensor_.counting)),
-                                    trace.get());
+                                    hazards_, trace.get());
   const ViewObjective objective(mast, sensor_, result.box, *evaluator_, &surrogate, trace.get());
   const SolveResult solved =
       solver.solve(objective, {request.joints.vector(), request.stop, request.seed});

@@ -22,9 +22,11 @@ class ViewObjective;
 class Planner {
  public:
   /// The evaluator judges every candidate on the same map as the grid, which is shared with the
-  /// caller and tells what the mast must not touch.
+  /// caller and tells what the mast must not touch. Surrogates of an expected gain have the
+  /// hazards.
   Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
-          std::shared_ptr<const ViewEvaluator> evaluator);
+          std::shared_ptr<const ViewEvaluator> evaluator,
+          const HazardTable& hazards = HazardTable());
 
   PlanResult plan(const PlanRequest& asked, const Solver& solver) const;
 
@@ -53,6 +55,7 @@ class Planner {
   SensorOptions sensor_;
   std::shared_ptr<const VoxelGrid> grid_;
   std::shared_ptr<const ViewEvaluator> evaluator_;
+  HazardTable hazards_;
 };
 
 }  // namespace nbvopt

@@ -27,12 +27,14 @@ class ViewPlanner::Impl {
       : robot_(robot), mast_(robot.mast), evaluator_(evaluator), map_(std::move(map)) {
     newest();  // what cannot be used is refused now
   }
-  Impl(std::shared_ptr<const VoxelGrid> grid, const Robot& robot)
+  Impl(std::shared_ptr<const VoxelGrid> grid, const Robot& robot, const HazardTable& hazards)
       : robot_(robot),
         mast_(robot.mast),
         evaluator_(kExact),
-        newest_(std::make_shared<const Planner>(
-            robot, grid, make_exact_evaluator(grid, DepthCamera(robot.sensor)))) {}
+        grid_(std::move(grid)),
+        hazards_(hazards) {
+    newest();
+  }
 
   /// Asks the planner of the newest version.
   template <class Question>
@@ -44,7 +46,24 @@ class ViewPlanner::Impl {
 
   InsertResult insert(const Scan& scan, const Transform& T_map_sensor) {
     if (!map_) throw UsageError("a planner on one version of a grid has no map to insert into");
+    if (robot_.sensor.gain == GainKind::expected) {
+      HazardTable hazards = this->hazards();
+      learn_hazards(*map_->grid(), scan, T_map_sensor, robot_.sensor, hazards);
+      InsertResult result = map_->insert(scan, T_map_sensor, robot_.sensor);
+      set_hazards(hazards);
+      return result;
+    }
     return map_->insert(scan, T_map_sensor, robot_.sensor);
+  }
+
+  HazardTable hazards() const {
+    const std::scoped_lock lock(mutex_);
+    return hazards_;
+  }
+  void set_hazards(const HazardTable& hazards) {
+    const std::scoped_lock lock(mutex_);
+    hazards_ = hazards;
+    newest_.reset();
   }
 
   const Robot& robot() const { return robot_; }
@@ -53,13 +72,13 @@ class ViewPlanner::Impl {
 
  private:
   std::shared_ptr<const Planner> newest() const {
-    if (!map_) return newest_;
-    const std::shared_ptr<const VoxelGrid> grid = map_->grid();
+    const std::shared_ptr<const VoxelGrid> grid = map_ ? map_->grid() : grid_;
     const std::scoped_lock lock(mutex_);
-    if (!newest_ || newest_->grid() != grid) {
-      newest_ = std::make_shared<const Planner>(
-          robot_, grid, make_evaluator(evaluator_, map_->map(), grid, robot_.sensor));
-    }
+    if (newest_ && newest_->grid() == grid) return newest_;
+    std::shared_ptr<const ViewEvaluator> evaluator =
+        map_ ? make_evaluator(evaluator_, map_->map(), grid, robot_.sensor, hazards_)
+             : make_exact_evaluator(grid, DepthCamera(robot_.sensor), hazards_);
+    newest_ = std::make_shared<const Planner>(robot_, grid, std::move(evaluator), hazards_);
     return newest_;
   }
 
@@ -67,7 +86,9 @@ class ViewPlanner::Impl {
   Mast mast_;
   std::string evaluator_;
   std::shared_ptr<SharedMap> map_;  ///< shared with other planners; null: the grid is all there is
-  mutable std::mutex mutex_;        ///< of what follows
+  std::shared_ptr<const VoxelGrid> grid_;  ///< where there is no map
+  mutable std::mutex mutex_;               ///< of what follows
+  HazardTable hazards_;
   mutable std::shared_ptr<const Planner> newest_;  ///< shared with the calls that use it
 };
 
@@ -80,8 +101,9 @@ ViewPlanner::ViewPlanner(std::shared_ptr<SharedMap> map, const Robot& robot,
                          const std::string& evaluator)
     : ViewPlanner(std::make_unique<Impl>(std::move(map), as_judged(robot, evaluator), evaluator)) {}
 
-ViewPlanner::ViewPlanner(std::shared_ptr<const VoxelGrid> grid, const Robot& robot)
-    : ViewPlanner(std::make_unique<Impl>(std::move(grid), robot)) {}
+ViewPlanner::ViewPlanner(std::shared_ptr<const VoxelGrid> grid, const Robot& robot,
+                         const HazardTable& hazards)
+    : ViewPlanner(std::make_unique<Impl>(std::move(grid), robot, hazards)) {}
 
 ViewPlanner ViewPlanner::with_given_sensor(UncertaintyMap map, const Robot& robot,
                                            const std::string& evaluator) {
@@ -133,6 +155,8 @@ InsertResult ViewPlanner::insert(const Scan& scan, const Transform& T_map_sensor
   return impl_->insert(scan, T_map_sensor);
 }
 
+HazardTable ViewPlanner::hazards() const { return impl_->hazards(); }
+void ViewPlanner::set_hazards(const HazardTable& hazards) { impl_->set_hazards(hazards); }
 const Robot& ViewPlanner::robot() const { return impl_->robot(); }
 const Mast& ViewPlanner::mast() const { return impl_->mast(); }
 const std::string& ViewPlanner::evaluator() const { return impl_->evaluator(); }

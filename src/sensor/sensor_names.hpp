@@ -28,6 +28,11 @@ inline constexpr auto kEnumNames<Counting> = std::to_array<EnumName<Counting>>({
     {Counting::per_voxel, "per_voxel"},
 });
 template <>
+inline constexpr auto kEnumNames<GainKind> = std::to_array<EnumName<GainKind>>({
+    {GainKind::positive, "positive"},
+    {GainKind::expected, "expected"},
+});
+template <>
 inline constexpr auto kEnumNames<NoReturn> = std::to_array<EnumName<NoReturn>>({
     {NoReturn::clear, "clear"},
     {NoReturn::ignore, "ignore"},

@@ -63,6 +63,8 @@ std::string to_string(UncertaintyMode value) { return std::string(enum_name(valu
 
 std::string to_string(Counting value) { return std::string(enum_name(value)); }
 
+std::string to_string(GainKind value) { return std::string(enum_name(value)); }
+
 std::string to_string(NoReturn value) { return std::string(enum_name(value)); }
 
 }  // namespace nbvopt

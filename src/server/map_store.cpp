@@ -21,7 +21,7 @@ std::shared_ptr<const ViewPlanner> MapStore::published() const {
 }
 
 void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
-  auto published = std::make_shared<const ViewPlanner>(grid, robot_);
+  auto published = std::make_shared<const ViewPlanner>(grid, robot_, hazards_);
   grid_ = std::move(grid);
   const std::scoped_lock lock(published_mutex_);
   published_.swap(published);  // the old version, if nobody reads it, goes after the lock
@@ -39,6 +39,10 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
   is_grid_behind_ = false;
 
   Insertion insertion;
+  HazardTable hazards = hazards_;
+  if (robot_.sensor.gain == GainKind::expected) {
+    learn_hazards(*grid_, scan, T_map_sensor, robot_.sensor, hazards);
+  }
   try {
     insertion.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor);
   } catch (const Error&) {  // refused: the tree is untouched
@@ -48,6 +52,7 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
     throw;
   }
   extent_m_ = extent_m;
+  hazards_ = hazards;
   is_grid_behind_ = true;
   publish(grid_->updated(insertion.result.changes));
   is_grid_behind_ = false;

@@ -80,6 +80,7 @@ class MapStore {
   UncertaintyMap map_;
   Eigen::AlignedBox3d extent_m_;  ///< of what is known, with the reach of all scans
   std::shared_ptr<const VoxelGrid> grid_;
+  HazardTable hazards_;          ///< learnt from the scans, where the robot's gain is expected
   bool is_grid_behind_ = false;  ///< an insertion failed half way, out of memory, say
   mutable VersionedCounts counts_;
   mutable std::map<MapFormat, std::weak_ptr<const MapBytes>> bytes_;

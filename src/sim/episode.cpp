@@ -68,6 +68,7 @@ class EpisodeRun {
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
+    hazards_ = HazardTable(trajectory.T_map_base(0.0).translation().z());
   }
 
   /// The loop of Fig. 4: capture, insert, plan, move, capture.
@@ -99,7 +100,7 @@ class EpisodeRun {
       summary_.prediction.add(capture.predicted_gain, capture.realised_gain);
     }
     insert(capture);
-    const NextView next = plan(capture);
+    const NextView next = plan(capture, time_s + options_.motion_time_s);
     const double computing_ms = capture.insert_ms + capture.grid_ms + capture.plan_ms;
     const double departure_s = options_.charge_computing ? time_s + 1e-3 * computing_ms : time_s;
     move_ = {capture.joints, next.joints, departure_s};
@@ -151,6 +152,10 @@ class EpisodeRun {
   void insert(Capture& capture) {
     const Transform T = T_map_sensor(capture);
     const Scan scan = timed(capture.render_ms, [&] { return camera_.capture(T, capture.frame); });
+    if (grid_ && is_expected()) {
+      timed(capture.insert_ms,
+            [&] { learn_hazards(*grid_, scan, T, options_.robot.sensor, hazards_); });
+    }
     const InsertResult inserted =
         timed(capture.insert_ms, [&] { return insert_scan(map_, scan, T, options_.robot.sensor); });
     if (grid_) {
@@ -164,12 +169,20 @@ class EpisodeRun {
     capture.information_gain = inserted.information_gained;
   }
 
-  NextView plan(Capture& capture) const {
+  /// Plans the view of the capture that follows, at `next_s`. An expected gain is worth knowing
+  /// where the base will be then; Eq. 12 does worse with it than with a base that stays.
+  NextView plan(Capture& capture, double next_s) const {
     if (!grid_) return {.joints = capture.joints};
+    PlanRequest next = request(capture);
+    if (is_expected()) {
+      next.T_map_base = trajectory_.T_map_base(std::min(next_s, trajectory_.duration_s()));
+    }
     return timed(capture.plan_ms, [&] {
-      return mode_.next_view(ViewPlanner(grid_, options_.robot), request(capture));
+      return mode_.next_view(ViewPlanner(grid_, options_.robot, hazards_), next);
     });
   }
+
+  bool is_expected() const { return options_.robot.sensor.gain == GainKind::expected; }
 
   const Trajectory& trajectory_;
   const CameraMode& mode_;
@@ -180,6 +193,7 @@ class EpisodeRun {
   DepthCamera planning_camera_;
   SimulatedCamera camera_;
   std::shared_ptr<const VoxelGrid> grid_;  ///< of the map; null where the mode does not plan
+  HazardTable hazards_;                    ///< learnt from all scans so far
   JointMove move_;                         ///< the latest
   double predicted_gain_ = Capture::kNaN;  ///< of the view that the camera moves to
   EpisodeSummary summary_;

@@ -97,6 +97,18 @@ TEST_F(CommandLine, QueryAnswersAlikeForAnyNumberOfThreads) {
   EXPECT_EQ(without_times(nbvopt_json(one)), without_times(nbvopt_json(two)));
 }
 
+TEST_F(CommandLine, QueryTakesTheExpectedGain) {
+  const json positive = nbvopt_json(json_query(map_file));
+  const json expected = nbvopt_json(json_query(map_file, {"--gain", "expected"}));
+  EXPECT_GT(expected["gain"], 0.0);
+  EXPECT_LT(expected["gain"], positive["gain"]);
+  // The robot's file says so, too, and the command line wins.
+  const std::string robot = folder.write("expected.yaml", "sensor:\n  gain: expected\n");
+  EXPECT_EQ(nbvopt_json(json_query(map_file, {"--robot", robot}))["gain"], expected["gain"]);
+  EXPECT_EQ(nbvopt_json(json_query(map_file, {"--robot", robot, "--gain", "positive"}))["gain"],
+            positive["gain"]);
+}
+
 TEST_F(CommandLine, QueryTellsPeopleWhereToLook) {
   const ProcessResult result = nbvopt_run(query(map_file));
   EXPECT_EQ(result.exit_code, 0);

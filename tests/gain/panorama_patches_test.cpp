@@ -102,8 +102,8 @@ class PanoramaResiduals : public PanoramaPatches {
  protected:
   const MovingMast mast_ = world_.moving_mast();
   const PanoramaObjective objective_{
-      world_.grid, world_.sensor, mast_, world_.box, planning_panorama(world_.sensor.counting),
-      nullptr};
+      world_.grid,   world_.sensor, mast_, world_.box, planning_panorama(world_.sensor.counting),
+      HazardTable(), nullptr};
 };
 
 TEST_F(PanoramaResiduals, SquareUpToAConstantLessTheValue) {
@@ -158,7 +158,7 @@ TEST_F(PanoramaResiduals, AreThereOfPanoramasPerRayOnly) {
   SensorOptions by_voxel = world_.sensor;
   by_voxel.counting = Counting::per_voxel;
   EXPECT_FALSE(PanoramaObjective(world_.grid, by_voxel, mast_, world_.box,
-                                 planning_panorama(by_voxel.counting), nullptr)
+                                 planning_panorama(by_voxel.counting), HazardTable(), nullptr)
                    .has_residuals());
 }
 

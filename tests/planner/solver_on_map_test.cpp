@@ -28,7 +28,8 @@ struct OfficeQuery {
   std::unique_ptr<const ViewEvaluator> exact =
       make_exact_evaluator(grid, DepthCamera(robot.sensor));
   PanoramaObjective surrogate{
-      grid, robot.sensor, mast, box, planning_panorama(robot.sensor.counting), nullptr};
+      grid,          robot.sensor, mast, box, planning_panorama(robot.sensor.counting),
+      HazardTable(), nullptr};
   ViewObjective gain{mast, robot.sensor, box, *exact, &surrogate, nullptr};
 
   /// What the solver can work on: the exact gain, or the surrogate where it needs more.

@@ -104,6 +104,47 @@ TEST(Episode, LearnsMoreTheMoreItSearches) {
   EXPECT_GT(information["auto"], information["random"]);
 }
 
+/// Keeps the camera where it is, and what it was asked and told.
+class WatchingMode : public CameraMode {
+ public:
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
+    requests.push_back(request);
+    hazards.push_back(planner.hazards());
+    const Transform T = T_map_sensor(request, planner.mast(), request.joints);
+    return {.joints = request.joints, .predicted_gain = planner.evaluate(T).gain};
+  }
+  mutable std::vector<PlanRequest> requests;
+  mutable std::vector<HazardTable> hazards;
+};
+
+TEST(Episode, PlansAnExpectedGainWhereTheBaseWillBe) {
+  for (const GainKind gain : {GainKind::positive, GainKind::expected}) {
+    EpisodeOptions options = coarse_options();
+    options.robot.sensor.gain = gain;
+    const Scene scene(room_mesh());
+    const WatchingMode mode;
+    UncertaintyMap map(0.1);
+    std::vector<Capture> captures;
+    run_episode(scene, straight_drive(), mode, options, map,
+                [&](const Capture& capture) { captures.push_back(capture); });
+    for (std::size_t i = 0; i + 1 < captures.size(); ++i) {
+      const Capture& of_base = captures[gain == GainKind::expected ? i + 1 : i];
+      EXPECT_TRUE(mode.requests[i].T_map_base.isApprox(of_base.T_map_base)) << i;
+      EXPECT_EQ(mode.hazards[i] != HazardTable(), gain == GainKind::expected) << i;
+    }
+  }
+}
+
+TEST(Episode, PredictsAnExpectedGainBetter) {
+  EpisodeOptions options = coarse_options();
+  const PredictionRecord positive = run("auto", options).summary.prediction;
+  options.robot.sensor.gain = GainKind::expected;
+  const PredictionRecord expected = run("auto", options).summary.prediction;
+  EXPECT_LT(std::abs(expected.bias()), 0.25);
+  EXPECT_LT(std::abs(expected.bias()), 0.5 * std::abs(positive.bias()));
+  EXPECT_GT(expected.correlation(), positive.correlation());
+}
+
 TEST(Episode, CountsWhatIsInTheMap) {
   const FinishedEpisode episode = run("auto", coarse_options());
   const MapCounts counts = episode.map.counts();

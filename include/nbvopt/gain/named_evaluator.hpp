@@ -18,8 +18,10 @@ SensorOptions evaluator_sensor(const std::string& name, const SensorOptions& sen
 
 /// The evaluator of that name, on a grid of the map. Throws UsageError when the name is not known
 /// or the evaluator cannot count as the sensor says. The map must outlive it and must not change.
+/// "exact" looks at the hazards where the sensor's gain is expected.
 std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const UncertaintyMap& map,
                                               std::shared_ptr<const VoxelGrid> grid,
-                                              const SensorOptions& sensor);
+                                              const SensorOptions& sensor,
+                                              const HazardTable& hazards = HazardTable());
 
 }  // namespace nbvopt

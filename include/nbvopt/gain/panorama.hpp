@@ -23,11 +23,17 @@
 // that the sum over rays approximates as well, and S tends to the edge's step. At the sensor's own
 // spacing the two differ by the sampling of either. Per voxel, each voxel counts with its best hit,
 // times min(1, n), n the expected number of rays on it, and denser layers do not converge.
+//
+// Where the sensor's gain is expected, rays go on through the unknown. With what probability they
+// are hit there, and get to what is behind, does not depend on pan and tilt either: a ray leaves up
+// to three hits, weighted by it, two that stand for all in the unknown (Gauss quadrature), and its
+// end.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
 
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/mast/moving_mast.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
@@ -51,8 +57,10 @@ class Panorama {
  public:
   /// Over joint positions in `box`. The grid's voxels in reach must be ready or lazily filled.
   /// Throws InputError when the sensor's or the mast's options cannot be used.
+  /// `hazards` are looked at where the sensor's gain is expected.
   Panorama(std::shared_ptr<const VoxelGrid> grid, const SensorOptions& sensor,
-           const MovingMast& mast, const JointBox& box, const PanoramaOptions& options = {});
+           const MovingMast& mast, const JointBox& box, const PanoramaOptions& options = {},
+           const HazardTable& hazards = HazardTable());
   ~Panorama();
 
   /// G(q). `smoothing` in (0, 1] is the share of the widest tau: shrink it to anneal. Throws

@@ -9,6 +9,7 @@
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/gain/gain_model.hpp"
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/sensor/depth_camera.hpp"
 
@@ -31,6 +32,23 @@ std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelG
                                                     const DepthCamera& camera,
                                                     const std::string& gain_model = "paper",
                                                     SimdLevel level = SimdLevel::best);
+
+/// The evaluator of the gain that the camera's options name.
+std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelGrid> grid,
+                                                    const DepthCamera& camera,
+                                                    const HazardTable& hazards);
+
+/// The expected gain: a ray goes on through unknown space, in which it meets a surface with the
+/// hazards of the table. A piece of it where it does so with probability P gives P (1 - u_new),
+/// u_new at the mean depth of a hit there; what is left of the ray gives max(0, u_old - u_new) at
+/// the first occupied voxel. Infinite hazards give Eq. 12. Unknown space before range_min
+/// attenuates and brings nothing. Per voxel, each voxel counts with the ray that is expected to
+/// bring most there. In the ViewGain, a ray that comes through an unknown voxel in range is an
+/// unknown one.
+std::unique_ptr<ViewEvaluator> make_expected_evaluator(std::shared_ptr<const VoxelGrid> grid,
+                                                       const DepthCamera& camera,
+                                                       const HazardTable& hazards,
+                                                       SimdLevel level = SimdLevel::best);
 
 /// The released code of the paper as it runs: samples along the ray at range_min + i * resolution,
 /// one octree search each. Always per ray and without near blocking. The map must outlive the

@@ -17,6 +17,7 @@
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/gain/gain_model.hpp"
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/map/shared_map.hpp"
@@ -49,7 +50,8 @@ class ViewPlanner {
               const std::string& evaluator = "exact");
 
   /// On one version of a map that somebody else keeps, judged by "exact".
-  ViewPlanner(std::shared_ptr<const VoxelGrid> grid, const Robot& robot);
+  ViewPlanner(std::shared_ptr<const VoxelGrid> grid, const Robot& robot,
+              const HazardTable& hazards = HazardTable());
 
   /// As the first, but the robot's sensor is taken as it is, whatever camera the evaluator
   /// describes: for fields that were set on top of evaluator_sensor(). Throws UsageError also when
@@ -90,9 +92,15 @@ class ViewPlanner {
 
   /// Inserts a scan taken from T_map_sensor with the robot's sensor; the next plan sees it.
   /// Plans that run in other threads end on the version that they began on; "paper-code" has none,
-  /// and is waited for. Throws as insert_scan() does, the map then untouched, and UsageError on a
+  /// and is waited for. Where the sensor's gain is expected, its hazards are learnt from the scan.
+  /// Throws as insert_scan() does, the map then untouched, and UsageError on a
   /// planner that has no map but one version of its grid.
   InsertResult insert(const Scan& scan, const Transform& T_map_sensor);
+
+  /// What an expected gain takes for likely of the unknown: what its scans have taught this
+  /// planner, or what it was given.
+  HazardTable hazards() const;
+  void set_hazards(const HazardTable& hazards);
 
   /// The robot, its sensor as the evaluator describes it.
   const Robot& robot() const;

@@ -19,6 +19,10 @@ enum class Counting {
   per_ray,    ///< the sum over rays (Section III-B.2)
   per_voxel,  ///< the sum over distinct voxels, each with its best ray (Eq. 13)
 };
+enum class GainKind {
+  positive,  ///< the first unknown voxel on a ray is a surface (Eq. 12)
+  expected,  ///< unknown space holds surfaces with the hazards of HazardTable
+};
 enum class NoReturn { clear, ignore };  ///< what a ray without a return does to the map
 
 /// The default is the paper's Intel R200: 59 x 46 degrees, 0.5 to 4 m.
@@ -39,6 +43,7 @@ struct SensorOptions {
   RayPattern ray_pattern = RayPattern::pixel_centres;
   RangeAxis range_axis = RangeAxis::euclidean;
   Counting counting = Counting::per_ray;
+  GainKind gain = GainKind::positive;
   bool near_blocking = true;  ///< an occupied voxel that a ray leaves before D_min blocks it
   NoReturn no_return = NoReturn::clear;
   double occupied_uncertainty = 1.0;  ///< u of an occupied voxel whose map carries none
@@ -57,6 +62,7 @@ std::string to_string(RayPattern value);
 std::string to_string(RangeAxis value);
 std::string to_string(UncertaintyMode value);
 std::string to_string(Counting value);
+std::string to_string(GainKind value);
 std::string to_string(NoReturn value);
 
 }  // namespace nbvopt

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+#include "gain/passage_walk.hpp"
+#include "gain/ray_passages.hpp"
+#include "nbvopt/gain/view_evaluator.hpp"
+#include "nbvopt/sensor/uncertainty_model.hpp"
+
+namespace nbvopt {
+namespace {
+
+class ExpectedEvaluator final : public ViewEvaluator {
+ public:
+  ExpectedEvaluator(std::shared_ptr<const VoxelGrid> grid, const DepthCamera& camera,
+                    const HazardTable& hazards, SimdLevel level)
+      : grid_(std::move(grid)),
+        camera_(camera),
+        uncertainty_(camera.options()),
+        passage_{hazards, uncertainty_.focal_distance_m()},
+        level_(level) {
+    const CameraRays& rays = camera_.rays();
+    angle_part_.reserve(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      angle_part_.push_back(uncertainty_.angle_weight() *
+                            uncertainty_.angle_uncertainty(rays.direction(i)));
+    }
+  }
+
+  std::string name() const override { return "exact"; }
+
+  ViewGain evaluate(const Transform& T_map_sensor) const override {
+    const SensorOptions& sensor = camera_.options();
+    const RayBundle rays = make_bundle(camera_.rays(), T_map_sensor, sensor.near_blocking);
+    thread_local detail::RayPassages passages;
+    detail::pass_rays(*grid_, rays, sensor.occupied_uncertainty, passage_, passages, level_);
+    ViewGain view;
+    double unknown_gain = 0.0, occupied_gain = 0.0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool ends_occupied = passages.end.kind[i] == HitKind::occupied;
+      unknown_gain += passages.probability[i] * (1.0 - angle_part_[i]) -
+                      uncertainty_.distance_weight() * passages.distance_uncertainty[i];
+      if (ends_occupied) occupied_gain += passages.end_probability[i] * end_gain(passages.end, i);
+      view.unknown_rays += passages.meets_unknown[i];
+      view.occupied_rays += ends_occupied && passages.meets_unknown[i] == 0 ? 1 : 0;
+    }
+    view.free_rays = static_cast<int>(rays.size()) - view.unknown_rays - view.occupied_rays;
+    if (sensor.counting == Counting::per_voxel) {
+      count_voxels_once(rays, passages.end, unknown_gain, occupied_gain);
+    }
+    view.unknown_gain = unknown_gain;
+    view.occupied_gain = occupied_gain;
+    view.gain = unknown_gain + occupied_gain;
+    return view;
+  }
+
+ private:
+  /// Equation (12) of a ray that ends occupied.
+  double end_gain(const RayHits& end, std::size_t i) const {
+    return std::max(0.0, end.uncertainty[i] - u_new(i, end.distance_m[i]));
+  }
+
+  /// Equation (8) along ray i.
+  double u_new(std::size_t i, double distance_m) const {
+    return angle_part_[i] +
+           uncertainty_.distance_weight() * uncertainty_.distance_uncertainty(distance_m);
+  }
+
+  /// Equation (13) over distinct voxels: each counts with the ray that is expected to bring most.
+  void count_voxels_once(const RayBundle& rays, const RayHits& end, double& unknown_gain,
+                         double& occupied_gain) const {
+    thread_local std::unordered_map<std::uint64_t, double> hidden, seen;
+    hidden.clear();
+    seen.clear();
+    unknown_gain = occupied_gain = 0.0;
+    // In the order of the rays, so that the sum does not depend on the table's.
+    const auto raise = [](double& best, double gain, double& sum) {
+      if (gain <= best) return;
+      sum += gain - best;
+      best = gain;
+    };
+    RayHits directions = end;
+    const detail::RayWalk walk =
+        detail::make_walk(*grid_, rays, camera_.options().occupied_uncertainty,
+                          detail::scalar_kernel().rotate_and_bound(rays, directions));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (end.kind[i] == HitKind::blocked) continue;
+      detail::ScalarRay ray(walk, {end.direction_x[i], end.direction_y[i], end.direction_z[i]});
+      double transmittance = 1.0;
+      const auto visit = [&](const detail::PassagePiece& piece) {
+        const detail::PassedPiece passed =
+            detail::pass_piece(piece, passage_.hazards, rays.range_min_m[i], transmittance);
+        if (passed.probability > 0.0) {
+          raise(hidden[packed(piece.voxel)],
+                passed.probability * (1.0 - u_new(i, passed.mean_distance_m)), unknown_gain);
+        }
+        return true;
+      };
+      const auto ends_at = [&](double leaves_m) { return leaves_m >= rays.range_min_m[i]; };
+      detail::walk_passage(walk, passage_.hazards, ray, end.direction_z[i], rays.range_max_m[i],
+                           visit, ends_at);
+      if (end.kind[i] == HitKind::occupied) {
+        raise(seen[packed(end.voxel[i])], transmittance * end_gain(end, i), occupied_gain);
+      }
+    }
+  }
+
+  std::shared_ptr<const VoxelGrid> grid_;  // shared with the caller, who publishes it
+  DepthCamera camera_;
+  UncertaintyModel uncertainty_;
+  detail::PassageModel passage_;
+  std::vector<double> angle_part_;  ///< of each ray's u
+  SimdLevel level_;
+};
+
+}  // namespace
+
+std::unique_ptr<ViewEvaluator> make_expected_evaluator(std::shared_ptr<const VoxelGrid> grid,
+                                                       const DepthCamera& camera,
+                                                       const HazardTable& hazards,
+                                                       SimdLevel level) {
+  return std::make_unique<ExpectedEvaluator>(std::move(grid), camera, hazards, level);
+}
+
+}  // namespace nbvopt
