@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/map_output.hpp"
 #include "cli/options/arguments.hpp"
@@ -27,6 +28,8 @@ struct InsertOptions {
   double depth_scale_m = DepthImageOptions{}.depth_scale_m;
   std::string output_file;  ///< empty: MAP itself
   std::optional<double> new_resolution_m;
+  bool is_clear_only = false;   ///< a scan without a point in range is meant as it is
+  bool is_overwritten = false;  ///< keep no backup
   bool json = false;
 };
 
@@ -44,6 +47,39 @@ UncertaintyMap map_of(const InsertOptions& options) {
   return read_map(options.map_file);
 }
 
+/// Writes the map; the file that it replaces is kept unless it may be overwritten. The backup, if
+/// any.
+std::optional<std::string> write(const UncertaintyMap& map, const std::string& file,
+                                 MapFormat format, bool is_overwritten) {
+  std::error_code ignored;
+  if (is_overwritten || !std::filesystem::is_regular_file(file, ignored)) {
+    write_map(map, file, format);
+    return std::nullopt;
+  }
+  write_file_with_backup(file, map_file_bytes(map, format));
+  return backup_of(file).string();
+}
+
+/// Where the points lie that were not used: a line, or nothing where all were.
+std::string unused_text(const ScanCounts& counts) {
+  std::string text;
+  for (const auto& [count, place] : {std::pair{counts.points_too_near, " too near"},
+                                     {counts.points_too_far, " too far"},
+                                     {counts.no_returns, " without return"},
+                                     {counts.points_not_finite, " not finite"},
+                                     {counts.points_off_lattice, " off the lattice"}}) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + place;
+  }
+  return text.empty() ? "" : "not used: " + text + "\n";
+}
+
+void require_in_range(const std::string& file, const Scan& scan, const SensorOptions& sensor) {
+  const std::string doubt = none_in_range(count_scan(scan, sensor), sensor);
+  if (!doubt.empty()) {
+    throw InputError(file + ": " + doubt + " (--clear-only inserts it as it is)");
+  }
+}
+
 void run_insert(InsertOptions& options) {
   const std::string& output_file =
       options.output_file.empty() ? options.map_file : options.output_file;
@@ -56,11 +92,12 @@ void run_insert(InsertOptions& options) {
   const Robot robot = options.robot_file.empty() ? Robot{} : read_robot(options.robot_file);
   UncertaintyMap map = map_of(options);
   const Scan scan = read_scan(options.scan_file, options.depth_image);
+  if (!options.is_clear_only) require_in_range(options.scan_file, scan, robot.sensor);
 
   const Stopwatch inserting;
   const InsertResult result = insert_scan(map, scan, options.T_map_sensor, robot.sensor);
   const double insert_ms = inserting.elapsed_ms();
-  write_map(map, output_file, format);
+  const std::optional<std::string> backup = write(map, output_file, format, options.is_overwritten);
 
   if (options.json) {
     Json json{{"map", options.map_file},
@@ -68,7 +105,13 @@ void run_insert(InsertOptions& options) {
               {"points_used", result.points_used},
               {"rays_cleared", result.rays_cleared},
               {"points_ignored", result.points_ignored},
+              {"points_too_near", result.points_too_near},
+              {"points_too_far", result.points_too_far},
+              {"no_returns", result.no_returns},
+              {"points_not_finite", result.points_not_finite},
+              {"points_off_lattice", result.points_off_lattice},
               {"voxels_changed", result.changes.size()},
+              {"backup", backup ? Json(*backup) : Json()},
               {"insert_ms", insert_ms}};
     json.update(map_json(map));
     print_answer(to_text(json));
@@ -76,7 +119,8 @@ void run_insert(InsertOptions& options) {
     print_answer(std::to_string(result.points_used) + " points used, " +
                  std::to_string(result.rays_cleared) + " rays cleared, " +
                  std::to_string(result.points_ignored) + " points ignored, " +
-                 std::to_string(result.changes.size()) + " voxels changed\n" + map_text(map));
+                 std::to_string(result.changes.size()) + " voxels changed\n" + unused_text(result) +
+                 (backup ? "the file before is kept as " + *backup + "\n" : "") + map_text(map));
   }
 }
 
@@ -118,6 +162,11 @@ void set_up_map_insert(CLI::App& map) {
                    "robot and sensor, a YAML file [the paper's platform]")
       ->type_name("FILE");
   insert->add_option("--out", options->output_file, "the map to write [MAP]")->type_name("FILE");
+  insert->add_flag("--overwrite", options->is_overwritten,
+                   "keep no backup of the file that is replaced [it is kept as FILE.bak]");
+  insert->add_flag("--clear-only", options->is_clear_only,
+                   "take a scan of which no point is in range: it can only clear [refused, since "
+                   "its unit or scale is likely wrong]");
   add_number(*insert, "--create", options->new_resolution_m, "M",
              "where there is no MAP yet, start an empty one with voxels of this size");
   insert->add_flag("--json", options->json, "print one JSON object instead of text");

@@ -142,7 +142,12 @@ ScanReceipt PlannerClient::insert_scan(const Scan& scan, const Transform& T_map_
           .rays_cleared = reply.rays_cleared(),
           .points_ignored = reply.points_ignored(),
           .voxels_changed = reply.voxels_changed(),
-          .information_gained = reply.information_gained()};
+          .information_gained = reply.information_gained(),
+          .points_too_near = reply.points_too_near(),
+          .points_too_far = reply.points_too_far(),
+          .no_returns = reply.no_returns(),
+          .points_not_finite = reply.points_not_finite(),
+          .points_off_lattice = reply.points_off_lattice()};
 }
 
 std::uint64_t PlannerClient::load_map(const std::string& path) {

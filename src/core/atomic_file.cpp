@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 /// What stands between a file's name and the random letters of a temporary one.
 constexpr std::string_view kUnfinished = ".nbvopt-unfinished-";
+constexpr const char* kBackup = ".bak";
 
 [[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
 
@@ -59,6 +60,24 @@ class TemporaryFile {
   std::string temporary_;
   Descriptor file_{-1};
 };
+
+/// Gives the file of that name, if there is one, the backup's name as well, by a second link that
+/// is made beside and renamed. On a file system without links the file is moved there.
+void keep_backup(int folder, const std::string& name) {
+  const std::string backup = name + kBackup;
+  const std::string link = backup + std::string(kUnfinished) + std::to_string(::getpid());
+  ::unlinkat(folder, link.c_str(), 0);  // of a killed process with the same number
+  const bool is_linked = ::linkat(folder, name.c_str(), folder, link.c_str(), 0) == 0;
+  if (!is_linked && errno == ENOENT) return;
+  if (::renameat(folder, (is_linked ? link : name).c_str(), folder, backup.c_str()) != 0) {
+    const int reason = errno;
+    if (is_linked) ::unlinkat(folder, link.c_str(), 0);
+    errno = reason;
+    fail();
+  }
+  // Renaming a link to another name of the same file does nothing, and leaves it.
+  if (is_linked) ::unlinkat(folder, link.c_str(), 0);
+}
 
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -118,27 +137,48 @@ void require_writable(const fs::path& path) {
   });
 }
 
-void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes) {
+namespace {
+
+enum class Replaced { is_removed, is_kept };
+
+void write_at(int folder, const std::string& name, std::string_view bytes, Replaced replaced_file) {
   TemporaryFile temporary(folder, name);
   Descriptor& file = temporary.file();
   struct stat replaced {};
   const bool replaces = ::fstatat(folder, name.c_str(), &replaced, AT_SYMLINK_NOFOLLOW) == 0;
   if (replaces && ::fchmod(file.get(), replaced.st_mode & 07777) != 0) fail();
   if (!write_all(file.get(), bytes) || ::fsync(file.get()) != 0 || !file.close()) fail();
+  if (replaced_file == Replaced::is_kept) keep_backup(folder, name);
   temporary.rename_to(name);
   // The new name, too, outlives a loss of power from here on. Not every file system can say so.
   ::fsync(folder);
 }
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
+void write(const fs::path& path, std::string_view bytes, Replaced replaced_file) {
   naming(path, [&] {
     std::error_code ignored;
     if (fs::is_other(fs::status(path, ignored))) return write_in_place(path, bytes);
     const fs::path target = checked_target(path);
     const Descriptor folder = open_folder(target);
-    write_file_atomically_at(folder.get(), target.filename().string(), bytes);
+    write_at(folder.get(), target.filename().string(), bytes, replaced_file);
   });
 }
+
+}  // namespace
+
+void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes) {
+  write_at(folder, name, bytes, Replaced::is_removed);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  write(path, bytes, Replaced::is_removed);
+}
+
+void write_file_with_backup(const fs::path& path, std::string_view bytes) {
+  write(path, bytes, Replaced::is_kept);
+}
+
+fs::path backup_of(const fs::path& path) { return checked_target(path) += kBackup; }
 
 void remove_unfinished_files(const fs::path& path) {
   std::error_code ignored;

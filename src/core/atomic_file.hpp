@@ -13,6 +13,13 @@ namespace nbvopt {
 /// existing file keeps its permissions; a device or pipe is written in place.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// The same; the file that it replaces, if any, remains as `backup_of(path)`, where it replaces an
+/// older backup. At every moment the file's old or new content is there. A device has no backup.
+void write_file_with_backup(const std::filesystem::path& path, std::string_view bytes);
+
+/// The name of that backup: `path`.bak, beside what a link leads to.
+std::filesystem::path backup_of(const std::filesystem::path& path);
+
 /// The same for the file of that name in an open folder; a link is replaced, not followed. Throws
 /// std::system_error.
 void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes);

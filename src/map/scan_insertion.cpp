@@ -7,6 +7,7 @@
 
 #include "map/map_access.hpp"
 #include "map/mark_window.hpp"
+#include "map/scan_counting.hpp"
 #include "map/scan_rays.hpp"
 #include "map/scan_windows.hpp"
 #include "map/segment_walk.hpp"
@@ -48,10 +49,12 @@ InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform&
                      std::to_string(scan.points_m.size()) + " points, give one a point or none");
   }
   ScanRays rays = scan_rays(scan, T_map_sensor, sensor, map.lattice());
+  refuse_wrong_unit(rays.counts, sensor);
   InsertResult result;
-  result.points_used = rays.hits.size();
+  static_cast<ScanCounts&>(result) = rays.counts;
   result.rays_cleared = rays.cleared;
-  result.points_ignored = rays.ignored;
+  result.points_ignored =
+      rays.counts.points_too_near + rays.counts.points_not_finite + rays.counts.points_off_lattice;
   for (const WindowWork& work : scan_windows(std::move(rays))) {
     insert_window(detail::MapAccess::tree(map), scan, work, result);
   }

@@ -1,5 +1,6 @@
 #include "map/scan_rays.hpp"
 
+#include "map/scan_counting.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
 
@@ -26,46 +27,45 @@ class RayCollector {
   }
 
   void add_point(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
-    const double range_m = range(p_sensor_m);
-    if (!(range_m > sensor_.range_min_m) || !p_sensor_m.allFinite()) {
-      ++rays_.ignored;
-    } else if (range_m < sensor_.range_max_m) {
-      add_hit(p_sensor_m, point);
-    } else {
-      add_clear_ray(p_sensor_m);
-    }
+    const PointPlace place = place_of(p_sensor_m, sensor_, rays_.counts);
+    const bool is_off_lattice = (place == PointPlace::in_range && !add_hit(p_sensor_m, point)) ||
+                                (place == PointPlace::too_far && !add_clear_ray(p_sensor_m));
+    ++(is_off_lattice ? rays_.counts.points_off_lattice : count_of(place, rays_.counts));
   }
 
-  /// The ray in this direction, of any length, is clear up to D_max.
-  void add_clear_ray(const Eigen::Vector3d& direction_sensor) {
-    if (sensor_.no_return == NoReturn::ignore) return;
-    const double length = range(direction_sensor);
-    const Eigen::Vector3d end_map_m =
-        T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length));
-    if (!(length > 0.0) || !lattice_.contains(end_map_m)) {
-      ++rays_.ignored;
-      return;
+  void add_no_return(const Eigen::Vector3d& direction_sensor) {
+    if (!is_direction(direction_sensor, sensor_)) {
+      ++rays_.counts.points_not_finite;
+    } else {
+      ++(add_clear_ray(direction_sensor) ? rays_.counts.no_returns
+                                         : rays_.counts.points_off_lattice);
     }
-    rays_.ends.push_back(lattice_.to_lattice(end_map_m));
-    ++rays_.cleared;
   }
 
   ScanRays take() && { return std::move(rays_); }
 
  private:
-  double range(const Eigen::Vector3d& p_sensor_m) const {
-    return sensor_.range_axis == RangeAxis::z_depth ? p_sensor_m.z() : p_sensor_m.norm();
+  /// The ray in this direction, of any length, is clear up to D_max. False where that end is off
+  /// the lattice.
+  bool add_clear_ray(const Eigen::Vector3d& direction_sensor) {
+    if (sensor_.no_return == NoReturn::ignore) return true;
+    const double length = range_m(direction_sensor, sensor_);
+    const Eigen::Vector3d end_map_m =
+        T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length));
+    if (!lattice_.contains(end_map_m)) return false;
+    rays_.ends.push_back(lattice_.to_lattice(end_map_m));
+    ++rays_.cleared;
+    return true;
   }
 
-  void add_hit(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
+  /// False for a point off the lattice.
+  bool add_hit(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
     const Eigen::Vector3d p_map_m = T_map_sensor_ * p_sensor_m;
-    if (!lattice_.contains(p_map_m)) {
-      ++rays_.ignored;
-      return;
-    }
+    if (!lattice_.contains(p_map_m)) return false;
     rays_.ends.push_back(lattice_.to_lattice(p_map_m));
     rays_.hits.push_back(
         {lattice_.key(p_map_m), static_cast<float>(model_.uncertainty(p_sensor_m)), point});
+    return true;
   }
 
   const Transform& T_map_sensor_;
@@ -85,7 +85,7 @@ ScanRays scan_rays(const Scan& scan, const Transform& T_map_sensor, const Sensor
     collector.add_point(scan.points_m[i].cast<double>(), static_cast<std::uint32_t>(i));
   }
   for (const Eigen::Vector3f& direction : scan.no_returns) {
-    collector.add_clear_ray(direction.cast<double>());
+    collector.add_no_return(direction.cast<double>());
   }
   return std::move(collector).take();
 }

@@ -22,7 +22,7 @@ struct ScanRays {
   std::vector<Eigen::Vector3d> ends;  ///< of returns and of rays that are clear up to D_max
   std::vector<ScanHit> hits;
   std::uint64_t cleared = 0;
-  std::uint64_t ignored = 0;
+  ScanCounts counts;
 };
 
 /// Sorts the scan's points and directions into rays and hits, as insert_scan() says.

@@ -101,6 +101,14 @@ void bind_insert_result(py::module_& module) {
                     "Rays without a point in range, clear up to its end.")
       .def_readonly("points_ignored", &InsertResult::points_ignored,
                     "Points too near, not finite, or off the lattice.")
+      .def_readonly("points_too_near", &InsertResult::points_too_near,
+                    "Points at the camera's least range or nearer.")
+      .def_readonly("points_too_far", &InsertResult::points_too_far,
+                    "Points at the camera's greatest range or farther.")
+      .def_readonly("no_returns", &InsertResult::no_returns,
+                    "Directions in which nothing is in range.")
+      .def_readonly("points_not_finite", &InsertResult::points_not_finite)
+      .def_readonly("points_off_lattice", &InsertResult::points_off_lattice)
       .def_property_readonly(
           "voxels_changed", [](const InsertResult& result) { return result.changes.size(); },
           "Voxels whose state or u is another now.")

@@ -130,6 +130,11 @@ v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& mes
   reply.set_points_ignored(result.points_ignored);
   reply.set_voxels_changed(result.changes.size());
   reply.set_information_gained(result.information_gained);
+  reply.set_points_too_near(result.points_too_near);
+  reply.set_points_too_far(result.points_too_far);
+  reply.set_no_returns(result.no_returns);
+  reply.set_points_not_finite(result.points_not_finite);
+  reply.set_points_off_lattice(result.points_off_lattice);
   return reply;
 }
 

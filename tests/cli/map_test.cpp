@@ -63,6 +63,46 @@ TEST_F(MapCommand, InsertsIntoTheMapOrBesideIt) {
   EXPECT_EQ(bytes_of(map_file), bytes_of(folder / "after.ot"));
 }
 
+TEST_F(MapCommand, KeepsTheMapBeforeUnlessToldToOverwrite) {
+  const std::string before = bytes_of(map_file);
+  auto inserting = insertion(map_file);
+  inserting.emplace_back("--json");
+  EXPECT_EQ(nbvopt_json(inserting).at("backup"), map_file + ".bak");
+  EXPECT_EQ(bytes_of(map_file + ".bak"), before);
+
+  inserting.emplace_back("--overwrite");
+  EXPECT_EQ(nbvopt_json(inserting).at("backup"), nullptr);
+  EXPECT_EQ(bytes_of(map_file + ".bak"), before) << "the older backup stays";
+
+  auto beside = insertion(map_file);
+  beside.insert(beside.end(), {"--out", folder / "after.ot", "--json"});
+  EXPECT_EQ(nbvopt_json(beside).at("backup"), nullptr) << "there was no such file";
+}
+
+TEST_F(MapCommand, RefusesAScanThatCanOnlyClear) {
+  const std::string before = bytes_of(map_file);
+  std::ofstream(cloud_file) << "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                               "property float y\nproperty float z\nend_header\n"
+                               "0 0 1500\n100 0 1500\n";
+  expect_refusal(nbvopt_run(insertion(map_file)), 3, "millimetres");
+  std::ofstream(cloud_file) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                               "property float y\nproperty float z\nend_header\n"
+                               "0 0 4.5\n0.1 0 4.5\n0 0 nan\n";
+  expect_refusal(nbvopt_run(insertion(map_file)), 3, "--clear-only");
+  EXPECT_EQ(bytes_of(map_file), before);
+  EXPECT_FALSE(std::ifstream(map_file + ".bak").is_open());
+
+  auto meant = insertion(map_file);
+  meant.insert(meant.end(), {"--clear-only", "--json"});
+  const nlohmann::json told = nbvopt_json(meant);
+  EXPECT_EQ(told.at("points_used"), 0);
+  EXPECT_EQ(told.at("points_too_far"), 2);
+  EXPECT_EQ(told.at("points_too_near"), 0);
+  EXPECT_EQ(told.at("no_returns"), 0);
+  EXPECT_EQ(told.at("points_not_finite"), 1);
+  EXPECT_EQ(told.at("rays_cleared"), 2);
+}
+
 TEST_F(MapCommand, CreatesAMapOnlyWhenAsked) {
   const std::string file = folder / "new.ot";
   expect_refusal(nbvopt_run(insertion(file)), 3, "new.ot");

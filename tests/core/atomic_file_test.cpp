@@ -68,6 +68,37 @@ TEST_F(AtomicFile, RefusesAFullDisk) {
   EXPECT_THAT(refusal("/dev/full"), HasSubstr("No space left"));
 }
 
+TEST_F(AtomicFile, KeepsOneBackupOfWhatItReplaces) {
+  const std::string path = folder / "file";
+  write_file_with_backup(path, "first");
+  EXPECT_EQ(files(), 1U) << "nothing was replaced";
+  for (const std::string content : {"second", "third"}) {
+    const std::string before = read_text_file(path);
+    write_file_with_backup(path, content);
+    EXPECT_EQ(read_text_file(path), content);
+    EXPECT_EQ(read_text_file(backup_of(path).string()), before);
+    EXPECT_EQ(files(), 2U);
+  }
+}
+
+TEST_F(AtomicFile, KeepsTheBackupBesideWhatALinkLeadsTo) {
+  const std::string path = folder.write("file", "old");
+  fs::create_symlink(path, folder / "link");
+  write_file_with_backup(folder / "link", "new");
+  EXPECT_EQ(read_text_file(path), "new");
+  EXPECT_EQ(read_text_file(path + ".bak"), "old");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+}
+
+TEST_F(AtomicFile, LosesNoBackupWhenItCannotWrite) {
+  const std::string path = folder.write("file", "old");
+  fs::create_directories(folder / "file.bak/full");
+  EXPECT_THAT(test::message_of<InputError>([&] { write_file_with_backup(path, "new"); }),
+              HasSubstr("cannot be written"));
+  EXPECT_EQ(read_text_file(path), "old");
+  EXPECT_EQ(files(), 2U);
+}
+
 TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   const std::string path = folder.write("file", "old");
   fs::create_directory(folder / "folder");

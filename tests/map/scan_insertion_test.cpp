@@ -228,6 +228,54 @@ TEST(InsertScan, IgnoresWhatIsNotFinite) {
   EXPECT_EQ(map.known_box(), std::nullopt);
 }
 
+TEST(InsertScan, TellsApartWhatItDoesNotUse) {
+  UncertaintyMap map(0.1);
+  Scan scan = points({{0, 0, 1}, {0, 0, 0.5F}, {0, 0, 0}, {0, 0, 4}, {0, 0, 9}, {0, 0, kNaN}});
+  scan.no_returns = {{0, 0, 1}, {0, 0, 0}};
+  const auto expect_counts = [](const ScanCounts& counts) {
+    EXPECT_EQ(counts.points_used, 1U);
+    EXPECT_EQ(counts.points_too_near, 2U);
+    EXPECT_EQ(counts.points_too_far, 2U);
+    EXPECT_EQ(counts.no_returns, 1U);
+    EXPECT_EQ(counts.points_not_finite, 2U);
+    EXPECT_EQ(counts.points_off_lattice, 0U);
+    EXPECT_EQ(counts.nearest_m, 0.5) << "the origin is no point";
+    EXPECT_EQ(counts.farthest_m, 9.0);
+  };
+  expect_counts(insert(map, scan));
+  expect_counts(count_scan(scan, {}));
+  SensorOptions ignoring;
+  ignoring.no_return = NoReturn::ignore;
+  expect_counts(insert(map, scan, ignoring));
+}
+
+TEST(InsertScan, RefusesAScanOfWhichAllIsImplausiblyFar) {
+  UncertaintyMap map(0.1);
+  insert(map, points({{0, 0, 1}}));
+  Scan millimetres = points({{0, 0, 1000}, {0, 100, 1000}, {0, 0, 0}});
+  millimetres.no_returns = {{0, 0, 1}};
+  EXPECT_THAT(test::message_of<InputError>([&] { insert(map, millimetres); }),
+              HasSubstr("millimetres"));
+  EXPECT_EQ(map.at(ahead(10)).state, VoxelState::occupied);
+  millimetres.points_m.push_back({0, 0, 2});
+  EXPECT_EQ(insert(map, millimetres).points_used, 1U);
+}
+
+TEST(NoneInRange, NamesTheLikelyCause) {
+  const auto doubt = [](const Scan& scan) { return none_in_range(count_scan(scan, {}), {}); };
+  EXPECT_EQ(doubt(points({{0, 0, 1}, {0, 0, 1000}})), "");
+  EXPECT_EQ(doubt(points({{0, 0, 1000}, {0, 0, 0.25F}})),
+            "no point is between 0.5 and 4 m away: 1 nearer, 1 farther, from 0.25 to 1000 m; are "
+            "they millimetres, or is depth_scale_m wrong?");
+  EXPECT_THAT(doubt(points({{0, 0, 120}})), HasSubstr("centimetres"));
+  EXPECT_THAT(doubt(points({{0, 0, 5}, {0, 0, 20}})), HasSubstr("not in the map's"));
+  EXPECT_THAT(doubt(points({{0, 0, 0.001F}})), HasSubstr("1 nearer"));
+  EXPECT_THAT(doubt(points({{0, 0, 0}})), HasSubstr("origin"));
+  EXPECT_THAT(doubt(points({{0, 0, kNaN}})), HasSubstr("finite"));
+  EXPECT_THAT(doubt(no_returns({{0, 0, 1}})), HasSubstr("largest value"));
+  EXPECT_THAT(doubt({}), HasSubstr("no points"));
+}
+
 TEST(InsertScan, MeasuresTheRangeAlongTheAxisOfTheSensor) {
   const Scan scan = points({{2.0F, 0, 3.8F}});  // 4.29 m away
   UncertaintyMap map(0.1);

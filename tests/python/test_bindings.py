@@ -170,7 +170,10 @@ class InsertTest(BindingsTest):
         office = nbvopt.Map(OFFICE)
         before = office.counts()
         done = office.insert(self.points, FORWARD, colours=self.colours)
-        for key in ("points_used", "rays_cleared", "points_ignored", "voxels_changed"):
+        for key in (
+            *("points_used", "rays_cleared", "points_ignored", "voxels_changed"),
+            *("points_too_near", "points_too_far", "no_returns", "points_not_finite"),
+        ):
             self.assertEqual(getattr(done, key), told[key], key)
         self.assertEqual(done.points_ignored, 1)
         after = office.counts()

@@ -129,6 +129,11 @@ TEST_F(RequestHandlerTest, InsertsPointsAndDepthImages) {
   EXPECT_NE(handler.run_id(), RequestHandler(store, nullptr, nullptr, limits).run_id());
   EXPECT_EQ(reply.points_used(), inserted.points_used);
   EXPECT_EQ(reply.rays_cleared(), inserted.rays_cleared);
+  EXPECT_EQ(reply.points_too_near(), inserted.points_too_near);
+  EXPECT_EQ(reply.points_too_far(), inserted.points_too_far);
+  EXPECT_EQ(reply.no_returns(), inserted.no_returns);
+  EXPECT_EQ(reply.points_not_finite(), inserted.points_not_finite);
+  EXPECT_EQ(reply.points_off_lattice(), inserted.points_off_lattice);
   EXPECT_EQ(reply.voxels_changed(), inserted.changes.size());
   EXPECT_EQ(reply.information_gained(), inserted.information_gained);
   EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes,

@@ -107,6 +107,18 @@ TEST_F(ServerFaults, PointsThatAreNotFinite) {
   EXPECT_EQ(receipt.points_used, 0U);
   EXPECT_EQ(receipt.voxels_changed, 0U);
   EXPECT_EQ(receipt.points_ignored, 4U);
+  EXPECT_EQ(receipt.points_not_finite, 4U);
+}
+
+TEST_F(ServerFaults, PointsInMillimetres) {
+  Scan scan;
+  scan.points_m = {{0, 0, 1500}, {10, 0, 1600}};
+  v1::InsertScanRequest request;
+  *request.mutable_sensor() = to_message(test::scan_pose(0));
+  *request.mutable_points() = to_message(scan);
+  const grpc::Status status = insert(request);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(status.error_message(), ::testing::HasSubstr("millimetres"));
 }
 
 TEST_F(ServerFaults, PointsBeyondTheLattice) {

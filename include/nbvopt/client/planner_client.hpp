@@ -56,6 +56,12 @@ struct ScanReceipt {
   std::uint64_t points_ignored = 0;
   std::uint64_t voxels_changed = 0;
   double information_gained = 0.0;
+  /// Where the points lie that were not used, as ScanCounts says.
+  std::uint64_t points_too_near = 0;
+  std::uint64_t points_too_far = 0;
+  std::uint64_t no_returns = 0;
+  std::uint64_t points_not_finite = 0;
+  std::uint64_t points_off_lattice = 0;
 };
 
 /// An answer, and how its views were counted.
