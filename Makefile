@@ -5,6 +5,8 @@ BUILD := build/$(PRESET)
 NBVOPT := $(BUILD)/cli/nbvopt
 DEMO_EPISODE := --start 0.62,0.71,0 --duration-max 40 --mode auto --motion-time 0.5
 DEMO_QUERY := --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1
+# What the first build for the demo leaves out; `make build` adds it.
+DEMO_WITHOUT := $(patsubst %,-DNBVOPT_BUILD_%=OFF,SERVER STUDY PYTHON TESTS BENCHMARKS)
 # One of them needs what `make bench-search` wrote.
 NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
@@ -32,7 +34,7 @@ build: packages  ## configure and build everything
 	@cmake --build --preset $(PRESET)
 
 demo: packages  ## find a next best view, then map a small office in simulation; all lands in out/
-	@cmake --preset $(PRESET) --log-level=WARNING
+	@test -e $(BUILD)/build.ninja || cmake --preset $(PRESET) --log-level=WARNING $(DEMO_WITHOUT)
 	@cmake --build --preset $(PRESET) --target nbvopt_cli
 	@mkdir -p out
 	@$(NBVOPT) query datasets/office_partial.ot $(DEMO_QUERY) --json-out out/answer.json --plot out/view.png

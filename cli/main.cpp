@@ -14,7 +14,6 @@
 #include "cli/terminal/output.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
-#include "server/versions.hpp"
 
 namespace nbvopt {
 namespace {
@@ -25,8 +24,7 @@ constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map,  se
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {
   CLI::App app("Where should a camera on a pan / tilt / telescopic mast look next?", "nbvopt");
-  app.set_version_flag("--version", server_version_report(),
-                       "print the versions of all that it stands on");
+  app.set_version_flag("--version", tool_versions(), "print the versions of all that it stands on");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 answered, 2 wrong command line, 3 unusable file or value, 4 internal error.\n"

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/ask_server.hpp"
 #include "cli/options/query_arguments.hpp"
 #include "cli/query_answer.hpp"
 #include "cli/terminal/output.hpp"
@@ -69,18 +70,6 @@ void write_explanations(const QueryOptions& options, const ViewPlanner& planner,
   }
 }
 
-QueryAnswer ask_server(const QueryOptions& options) {
-  PlannerClient client(options.server, options.tls);
-  QueryAnswer answer;
-  const PlanRequest request = request_of(options, *options.height_m);
-  const Stopwatch calling;
-  RemotePlan plan = client.plan(request, search_of(options.solver));
-  answer.remote = {.server = options.server, .call_ms = calling.elapsed_ms()};
-  answer.counting = plan.counting;
-  answer.result = std::move(plan.result);
-  return answer;
-}
-
 QueryAnswer search_map(const QueryOptions& options) {
   const Robot robot = robot_of(options);
   const auto solver = make_solver(search_of(options.solver));
@@ -103,7 +92,9 @@ QueryAnswer search_map(const QueryOptions& options) {
 
 void run_query(const QueryOptions& options) {
   check(options);
-  const QueryAnswer answer = options.server.empty() ? search_map(options) : ask_server(options);
+  const QueryAnswer answer = options.server.empty()
+                                 ? search_map(options)
+                                 : ask_server(options, request_of(options, *options.height_m));
   if (!options.json_file.empty()) {
     write_file_atomically(options.json_file, to_text(to_json(answer)));
   }

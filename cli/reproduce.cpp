@@ -87,7 +87,7 @@ void reproduce(ReproduceOptions options) {
   }
 }
 
-void run_worker() {
+void simulate_units() {
   UnitRunner runner;
   experiment::run_worker([&](const Json& unit) { return runner.run(simulation_unit_of(unit)); });
 }
@@ -99,7 +99,7 @@ CLI::App* add_worker(CLI::App& command, const std::vector<CLI::Option*>& require
   worker->preparse_callback([required](std::size_t) {
     for (CLI::Option* option : required) option->required(false);
   });
-  worker->callback(run_worker);
+  worker->callback(simulate_units);
   return worker;
 }
 

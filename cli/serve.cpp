@@ -18,6 +18,7 @@
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/server.hpp"
+#include "server/versions.hpp"
 
 namespace nbvopt {
 namespace {
@@ -162,5 +163,7 @@ void set_up_serve(CLI::App& app) {
       "Example: nbvopt serve --create 0.05 --snapshot map.ot --listen unix:/run/robot/nbvopt");
   serve->callback([options] { run_serve(*options); });
 }
+
+std::string tool_versions() { return server_version_report(); }
 
 }  // namespace nbvopt

@@ -118,7 +118,7 @@ void run(const StudyOptions& options, WorkKind kind) {
   print_answer(to_text(result, std::min(how.workers, std::max<std::size_t>(to_run, 1))));
 }
 
-void run_worker() {
+void answer_queries() {
   study::UnitRunner runner([](const Search& search) { return make_solver(search); });
   experiment::run_worker([&](const Json& unit) { return runner.run(study::unit_of(unit)); });
 }
@@ -172,7 +172,7 @@ void set_up_study(CLI::App& app) {
   study
       ->add_subcommand("worker",
                        "Answer units of work, a line each, from standard input to standard output")
-      ->callback(run_worker);
+      ->callback(answer_queries);
   study->footer("Keys of SPEC, records and the workers' protocol: docs/guide/studies.md");
 }
 

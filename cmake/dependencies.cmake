@@ -30,3 +30,7 @@ if(NBVOPT_BUILD_PYTHON)
   find_package(Python REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(pybind11 2.10 REQUIRED CONFIG)
 endif()
+# The command line's.
+if(NBVOPT_BUILD_CLI)
+  find_package(CLI11 2.1 REQUIRED CONFIG)
+endif()

@@ -19,5 +19,5 @@ endfunction()
 
 nbvopt_part_needs(STUDY SIM)
 nbvopt_part_needs(PYTHON SIM SERVER)
-nbvopt_part_needs(CLI SIM SERVER STUDY)
-nbvopt_part_needs(BENCHMARKS TESTS CLI)  # the scenes of datasets/, the server to be measured
+nbvopt_part_needs(CLI SIM)  # without SERVER or STUDY, their commands say so
+nbvopt_part_needs(BENCHMARKS TESTS CLI SERVER)  # the scenes of datasets/, the server to be measured
