@@ -8,6 +8,7 @@
 
 #include "cli/map_output.hpp"
 #include "cli/options/arguments.hpp"
+#include "cli/options/depth_image_arguments.hpp"
 #include "cli/terminal/output.hpp"
 #include "core/atomic_file.hpp"
 #include "core/stopwatch.hpp"
@@ -24,8 +25,7 @@ struct InsertOptions {
   std::string scan_file;
   Transform T_map_sensor = Transform::Identity();
   std::string robot_file;  ///< empty: the paper's platform
-  std::optional<DepthImageOptions> depth_image;
-  double depth_scale_m = DepthImageOptions{}.depth_scale_m;
+  DepthImageArguments depth_image;
   std::string output_file;  ///< empty: MAP itself
   std::optional<double> new_resolution_m;
   bool is_clear_only = false;   ///< a scan without a point in range is meant as it is
@@ -88,10 +88,9 @@ void run_insert(InsertOptions& options) {
   if (format == MapFormat::bt) {
     print_message("warning: " + output_file + " cannot keep the uncertainty, give --out FILE.ot");
   }
-  if (options.depth_image) options.depth_image->depth_scale_m = options.depth_scale_m;
   const Robot robot = options.robot_file.empty() ? Robot{} : read_robot(options.robot_file);
   UncertaintyMap map = map_of(options);
-  const Scan scan = read_scan(options.scan_file, options.depth_image);
+  const Scan scan = read_scan(options.scan_file, depth_image_options(options.depth_image));
   if (!options.is_clear_only) require_in_range(options.scan_file, scan, robot.sensor);
 
   const Stopwatch inserting;
@@ -125,7 +124,9 @@ void run_insert(InsertOptions& options) {
 }
 
 void add_scan_arguments(CLI::App& insert, InsertOptions& options) {
-  insert.add_option("SCAN", options.scan_file, "a point cloud (PLY or PCD) or a depth image (PNG)")
+  insert
+      .add_option("SCAN", options.scan_file,
+                  "a point cloud (PLY, PCD, XYZ text) or a 16-bit depth image (PNG, PGM)")
       ->required();
   insert
       .add_option_function<std::string>(
@@ -138,16 +139,7 @@ void add_scan_arguments(CLI::App& insert, InsertOptions& options) {
           "the optical frame in the map (z forward, x right, y down): position and quaternion")
       ->type_name("X,Y,Z,QX,QY,QZ,QW")
       ->required();
-  insert
-      .add_option_function<std::string>(
-          "--intrinsics",
-          [&options](const std::string& text) {
-            const auto n = numbers_argument("--intrinsics", text, {4}, "FX,FY,CX,CY");
-            options.depth_image = {.fx_px = n[0], .fy_px = n[1], .cx_px = n[2], .cy_px = n[3]};
-          },
-          "of a depth image, in pixels")
-      ->type_name("FX,FY,CX,CY");
-  add_number(insert, "--depth-scale", options.depth_scale_m, "M", "metres a unit of a depth image");
+  add_depth_image_arguments(insert, options.depth_image, "");
 }
 
 }  // namespace
@@ -171,8 +163,7 @@ void set_up_map_insert(CLI::App& map) {
              "where there is no MAP yet, start an empty one with voxels of this size");
   insert->add_flag("--json", options->json, "print one JSON object instead of text");
   insert->footer(
-      "The scan is in the optical frame. Of a depth image, 0 is not known and 65535 nothing in\n"
-      "range.\n"
+      "The scan is in the optical frame. Of a depth image, 0 is not known.\n"
       "Example: nbvopt map insert map.ot scan.ply --pose -1,2,0.4,-0.5,0.5,-0.5,0.5 --create 0.05");
   insert->callback([options] { run_insert(*options); });
 }

@@ -25,6 +25,9 @@ class ByteReader {
     return piece;
   }
 
+  /// Whether all bytes were taken.
+  bool is_at_end() { return available_ == 0 && !refill(1); }
+
   /// The bytes up to the next newline, which is taken but not returned, or to the stream's end.
   /// None at the end, or when the line has more than `max_length` bytes.
   std::optional<std::string> take_line(std::size_t max_length) {

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
-#include <sstream>
+#include <utility>
 
 #include "map/lzf.hpp"
 #include "map/point_records.hpp"
@@ -15,6 +17,7 @@ namespace {
 struct Header {
   std::vector<std::string> fields, sizes, types, counts;
   std::optional<std::uint64_t> points, width, height;
+  std::optional<Transform> viewpoint;
   std::string data;
 };
 
@@ -26,7 +29,7 @@ struct Column {
 
 class PcdReader {
  public:
-  PcdReader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+  PcdReader(std::istream& in, const std::string& name) : in_(in, name) {}
 
   Scan read() {
     const Header header = read_header();
@@ -35,67 +38,85 @@ class PcdReader {
     if (header.data == "ascii") return read_ascii(columns, points);
     if (header.data == "binary") return read_binary(columns, points);
     if (header.data == "binary_compressed") return read_compressed(columns, points);
-    refuse("DATA is '" + header.data + "', known are ascii, binary and binary_compressed");
+    in_.refuse("DATA is '" + header.data + "', known are ascii, binary and binary_compressed");
   }
-
- private:
-  [[noreturn]] void refuse(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
   Header read_header() {
     Header header;
     while (header.data.empty()) {
-      const std::string line = take_text_line(in_, name_);
-      std::istringstream words(line);
-      std::string key;
-      words >> key;
-      if (key.empty() || key.starts_with('#')) continue;
-      std::vector<std::string> values;
-      for (std::string value; words >> value;) values.push_back(value);
-      if (key == "FIELDS") {
-        header.fields = values;
-      } else if (key == "SIZE") {
-        header.sizes = values;
-      } else if (key == "TYPE") {
-        header.types = values;
-      } else if (key == "COUNT") {
-        header.counts = values;
-      } else if (key == "WIDTH") {
-        header.width = whole_number(values, line);
-      } else if (key == "HEIGHT") {
-        header.height = whole_number(values, line);
-      } else if (key == "POINTS") {
-        header.points = whole_number(values, line);
-      } else if (key == "DATA" && values.size() == 1) {
-        header.data = values.front();
-      } else if (key != "VERSION" && key != "VIEWPOINT") {
-        refuse("the header's line '" + line.substr(0, 60) +
-               "' is not understood, is this a PCD file?");
+      const std::string line = in_.needed_line();
+      Words words(line);
+      const std::string key = lower_case(std::string(words.next()));
+      if (key.starts_with('#')) continue;
+      std::vector<std::string> values = words.rest();
+      if (key == "fields" || key == "columns") {
+        header.fields = std::move(values);
+      } else if (key == "size") {
+        header.sizes = std::move(values);
+      } else if (key == "type") {
+        header.types = std::move(values);
+      } else if (key == "count") {
+        header.counts = std::move(values);
+      } else if (key == "width") {
+        header.width = whole_number(values);
+      } else if (key == "height") {
+        header.height = whole_number(values);
+      } else if (key == "points") {
+        header.points = whole_number(values);
+      } else if (key == "viewpoint") {
+        header.viewpoint = viewpoint(values);
+      } else if (key == "data" && values.size() == 1) {
+        header.data = lower_case(values.front());
+      } else if (key != "version") {
+        in_.refuse_line("'" + line.substr(0, 60) + "' is not understood, is this a PCD file?");
       }
     }
     return header;
   }
 
-  std::uint64_t whole_number(const std::vector<std::string>& values,
-                             const std::string& line) const {
+ private:
+  std::uint64_t whole_number(const std::vector<std::string>& values) const {
     const auto number = values.size() == 1 ? parse_whole_number(values.front()) : std::nullopt;
-    if (!number) refuse("the header's line '" + line.substr(0, 60) + "' has no count");
+    if (!number) in_.refuse_line("a count is missing");
     return *number;
   }
 
-  std::uint64_t points_of(const Header& header) const {
-    if (header.points) return *header.points;
-    if (!header.width || !header.height) refuse("the header has no POINTS");
-    if (*header.height > 0 && *header.width > UINT64_MAX / *header.height) {
-      refuse("WIDTH times HEIGHT is too large");
+  /// Position and quaternion, the real part first; none where they are no pose.
+  static std::optional<Transform> viewpoint(const std::vector<std::string>& values) {
+    std::array<double, 7> n{};
+    if (values.size() != n.size()) return std::nullopt;
+    for (std::size_t i = 0; i < n.size(); ++i) {
+      const auto number = parse_scan_number(values[i]);
+      if (!number) return std::nullopt;
+      n[i] = *number;
     }
-    return *header.width * *header.height;
+    try {
+      return pose_from_quaternion({n[0], n[1], n[2]}, {n[4], n[5], n[6], n[3]});
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
   }
 
+  /// A POINTS that differs from WIDTH times HEIGHT is right: files that were cut or joined by hand
+  /// keep the others.
+  std::uint64_t points_of(const Header& header) const {
+    if (header.points) return *header.points;
+    if (!header.width) in_.refuse("the header has neither POINTS nor WIDTH");
+    const std::uint64_t height = header.height.value_or(1);
+    if (height > 0 && *header.width > UINT64_MAX / height) {
+      in_.refuse("WIDTH times HEIGHT is too large");
+    }
+    return *header.width * height;
+  }
+
+  /// Files of the first versions have neither SIZE nor TYPE nor COUNT: one float a field.
   std::vector<Column> columns_of(const Header& header) const {
-    if (header.sizes.size() != header.fields.size() ||
-        header.types.size() != header.fields.size() ||
-        (!header.counts.empty() && header.counts.size() != header.fields.size())) {
-      refuse("FIELDS, SIZE, TYPE and COUNT do not have one value a field");
+    const auto fits = [&](const std::vector<std::string>& values) {
+      return values.empty() || values.size() == header.fields.size();
+    };
+    if (header.fields.empty()) in_.refuse("the header has no FIELDS");
+    if (!fits(header.sizes) || !fits(header.types) || !fits(header.counts)) {
+      in_.refuse("FIELDS, SIZE, TYPE and COUNT do not have one value a field");
     }
     constexpr std::uint64_t kMaxNumbers = 4096;
     std::vector<Column> columns;
@@ -103,32 +124,34 @@ class PcdReader {
       const auto count = header.counts.empty() ? std::optional<std::uint64_t>(1)
                                                : parse_whole_number(header.counts[i]);
       if (!count || *count == 0 || *count > kMaxNumbers || columns.size() > kMaxNumbers) {
-        refuse("the COUNT of field '" + header.fields[i] + "' is not usable");
+        in_.refuse("the COUNT of field '" + header.fields[i] + "' is not usable");
       }
-      const NumberType type = number_type(header.fields[i], header.types[i] + header.sizes[i]);
-      columns.push_back({header.fields[i], type});
-      columns.resize(columns.size() + *count - 1, {"", type});
+      const std::string type = header.types.empty() ? "f" : lower_case(header.types[i]);
+      const std::string size = header.sizes.empty() ? "4" : header.sizes[i];
+      const NumberType number = number_type(header.fields[i], type + size);
+      columns.push_back({lower_case(header.fields[i]), number});
+      columns.resize(columns.size() + *count - 1, {"", number});
     }
     return columns;
   }
 
   NumberType number_type(const std::string& field, const std::string& type_and_size) const {
     static constexpr std::array<std::pair<const char*, NumberType>, 10> kTypes{{
-        {"I1", NumberType::i8},
-        {"U1", NumberType::u8},
-        {"I2", NumberType::i16},
-        {"U2", NumberType::u16},
-        {"I4", NumberType::i32},
-        {"U4", NumberType::u32},
-        {"I8", NumberType::i64},
-        {"U8", NumberType::u64},
-        {"F4", NumberType::f32},
-        {"F8", NumberType::f64},
+        {"i1", NumberType::i8},
+        {"u1", NumberType::u8},
+        {"i2", NumberType::i16},
+        {"u2", NumberType::u16},
+        {"i4", NumberType::i32},
+        {"u4", NumberType::u32},
+        {"i8", NumberType::i64},
+        {"u8", NumberType::u64},
+        {"f4", NumberType::f32},
+        {"f8", NumberType::f64},
     }};
     for (const auto& [name, type] : kTypes) {
       if (type_and_size == name) return type;
     }
-    refuse("the TYPE and SIZE of field '" + field + "' are not known");
+    in_.refuse("the TYPE and SIZE of field '" + field + "' are not known");
   }
 
   /// PCL stores a colour's four bytes as a float; this gives them as the number that they are.
@@ -146,19 +169,24 @@ class PcdReader {
   PointFields fields_of(const std::vector<Column>& columns) const {
     std::vector<std::string> names;
     for (const Column& column : columns) names.push_back(column.name);
-    return PointFields(names, name_);
+    return PointFields(std::move(names), in_);
   }
 
   Scan read_ascii(const std::vector<Column>& columns, std::uint64_t points) {
     const PointFields fields = fields_of(columns);
     std::vector<double> record(columns.size());
     Scan scan;
-    for (std::uint64_t i = 0; i < points; ++i) {
-      parse_numbers(take_text_line(in_, name_), record, name_);
+    for (std::uint64_t i = 0; i < points;) {
+      in_.enter_point(i, points);
+      const std::string line = in_.needed_line();
+      if (line.starts_with('#')) continue;
+      Words words(line);
+      in_.parse_numbers(words, record);
       for (std::size_t c = 0; c < columns.size(); ++c) {
         if (is_float_colour(columns[c])) record[c] = colour_bits(record[c]);
       }
       fields.add(record, scan);
+      ++i;
     }
     return scan;
   }
@@ -169,7 +197,8 @@ class PcdReader {
     std::vector<double> record(columns.size());
     Scan scan;
     for (std::uint64_t i = 0; i < points; ++i) {
-      const char* next = take_bytes(in_, bytes, name_);
+      in_.enter_point(i, points);
+      const char* next = in_.take_bytes(bytes);
       for (std::size_t c = 0; c < columns.size(); ++c) {
         record[c] = decoded_number(next, stored_type(columns[c]), std::endian::little);
         next += byte_size(columns[c].type);
@@ -182,19 +211,20 @@ class PcdReader {
   /// The sizes compressed and not, then all numbers of the first column, of the second, ...
   Scan read_compressed(const std::vector<Column>& columns, std::uint64_t points) {
     const PointFields fields = fields_of(columns);
-    const auto compressed_bytes = number_at<std::uint32_t>(take_bytes(in_, 4, name_));
-    const auto bytes = number_at<std::uint32_t>(take_bytes(in_, 4, name_));
+    in_.enter("the compressed points");
+    const auto compressed_bytes = number_at<std::uint32_t>(in_.take_bytes(4));
+    const auto bytes = number_at<std::uint32_t>(in_.take_bytes(4));
     if (points > bytes || points * record_bytes(columns) != bytes) {
-      refuse("the size of the compressed points does not fit the header, the file is damaged");
+      in_.refuse("the size of the compressed points does not fit the header, the file is damaged");
     }
     std::string compressed;
     while (compressed.size() < compressed_bytes) {
       constexpr std::size_t kBlock = 1 << 16;
       const std::size_t count = std::min<std::size_t>(kBlock, compressed_bytes - compressed.size());
-      compressed.append(take_bytes(in_, count, name_), count);
+      compressed.append(in_.take_bytes(count), count);
     }
     const auto data = lzf_decompressed(compressed, bytes);
-    if (!data) refuse("the compressed points are damaged");
+    if (!data) in_.refuse("the compressed points are damaged");
 
     std::vector<const char*> next;
     const char* column_start = data->data();
@@ -220,12 +250,15 @@ class PcdReader {
     return bytes;
   }
 
-  ByteReader in_;
-  const std::string& name_;
+  ScanInput in_;
 };
 
 }  // namespace
 
 Scan read_pcd(std::istream& in, const std::string& name) { return PcdReader(in, name).read(); }
+
+std::optional<Transform> read_pcd_viewpoint(std::istream& in, const std::string& name) {
+  return PcdReader(in, name).read_header().viewpoint;
+}
 
 }  // namespace nbvopt

@@ -74,37 +74,89 @@ double decoded_number(const char* bytes, NumberType type, std::endian order) {
   return 0.0;
 }
 
-void parse_numbers(std::string_view line, std::span<double> numbers, const std::string& name) {
-  constexpr const char* kSpaces = " \t\r";
-  for (double& number : numbers) {
-    line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(kSpaces));
-    if (word.empty()) throw InputError(name + ": a point has too few numbers, the file is damaged");
-    const std::optional<double> value = parse_number(word);
-    if (!value) {
-      throw InputError(name + ": '" + std::string(word.substr(0, 40)) +
-                       "' stands where a number was expected");
-    }
-    number = *value;
-    line.remove_prefix(word.size());
-  }
+std::string_view Words::next() {
+  rest_.remove_prefix(std::min(rest_.find_first_not_of(separators_), rest_.size()));
+  const std::string_view word = rest_.substr(0, rest_.find_first_of(separators_));
+  rest_.remove_prefix(word.size());
+  return word;
 }
 
-std::string take_text_line(ByteReader& in, const std::string& name) {
+std::vector<std::string> Words::rest() {
+  std::vector<std::string> words;
+  for (std::string_view word = next(); !word.empty(); word = next()) words.emplace_back(word);
+  return words;
+}
+
+std::optional<std::string> ScanInput::next_line() {
   constexpr std::size_t kMaxLine = 1 << 16;
-  auto line = in.take_line(kMaxLine);
-  if (!line) throw InputError(name + ": the file ends too early, it is truncated or damaged");
-  if (line->ends_with('\r')) line->pop_back();
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  while (!in_.is_at_end()) {
+    ++line_;
+    auto line = in_.take_line(kMaxLine);
+    if (!line) refuse_line("is longer than any line of such a file, it is damaged");
+    if (line_ == 1 && line->starts_with(kByteOrderMark)) line->erase(0, kByteOrderMark.size());
+    line->erase(line->find_last_not_of(" \t\r") + 1);
+    if (!line->empty()) return line;
+  }
+  return std::nullopt;
+}
+
+std::string ScanInput::needed_line() {
+  auto line = next_line();
+  if (!line) refuse_end();
   return *std::move(line);
 }
 
-const char* take_bytes(ByteReader& in, std::size_t count, const std::string& name) {
-  const char* bytes = in.take(count);
-  if (bytes == nullptr) throw InputError(name + ": the file ends too early, it is truncated");
+const char* ScanInput::take_bytes(std::size_t count) {
+  const char* bytes = in_.take(count);
+  if (bytes == nullptr) refuse_end();
   return bytes;
 }
 
-PointFields::PointFields(const std::vector<std::string>& names, const std::string& file) {
+void ScanInput::parse_numbers(Words& words, std::span<double> numbers) const {
+  for (double& number : numbers) {
+    const std::string_view word = words.next();
+    if (word.empty()) refuse_line("too few numbers, the file is damaged");
+    const std::optional<double> value = parse_scan_number(word);
+    if (!value) {
+      refuse_line("'" + std::string(word.substr(0, 40)) + "' stands where a number was expected");
+    }
+    number = *value;
+  }
+}
+
+void ScanInput::refuse_end() const {
+  const std::string where = part_.empty() ? "after " + std::to_string(point_) + " of " +
+                                                std::to_string(points_) + " points"
+                                          : "within " + part_;
+  refuse("the file ends too early, " + where + ": it is truncated or damaged");
+}
+
+void ScanInput::refuse(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+void ScanInput::refuse_line(const std::string& what) const {
+  refuse("line " + std::to_string(line_) + ": " + what);
+}
+
+std::optional<double> parse_scan_number(std::string_view word) {
+  if (const auto number = parse_number(word)) return number;
+  // As the C library of Windows used to print them: 1.#INF, -1.#IND, 1.#QNAN, 1.#INF00.
+  const std::size_t mark = word.find("1.#");
+  if (mark > 1 || (mark == 1 && word[0] != '-' && word[0] != '+')) return std::nullopt;
+  if (!word.substr(mark + 3).starts_with("INF")) return std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  return word[0] == '-' ? -infinity : infinity;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+PointFields::PointFields(std::vector<std::string> names, const ScanInput& in) {
+  for (std::string& name : names) name = lower_case(std::move(name));
   const auto find = [&](const char* name) -> std::optional<std::size_t> {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) return std::nullopt;
@@ -112,7 +164,7 @@ PointFields::PointFields(const std::vector<std::string>& names, const std::strin
   };
   const auto required = [&](const char* name) {
     const auto index = find(name);
-    if (!index) throw InputError(file + ": the points have no '" + name + "'");
+    if (!index) in.refuse("the points have no '" + std::string(name) + "'");
     return *index;
   };
   x_ = required("x");
