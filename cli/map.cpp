@@ -4,6 +4,7 @@
 #include <CLI/Validators.hpp>
 #include <memory>
 
+#include "cli/map_build.hpp"
 #include "cli/map_insert.hpp"
 #include "cli/map_output.hpp"
 #include "cli/terminal/output.hpp"
@@ -87,6 +88,7 @@ void set_up_map(CLI::App& app) {
   set_up_info(*map);
   set_up_convert(*map);
   set_up_map_insert(*map);
+  set_up_map_build(*map);
 }
 
 }  // namespace nbvopt
