@@ -578,7 +578,7 @@ def error_checks():
 def help_checks():
     for words in [
         *["", "query", "evaluate", "simulate", "serve", "reproduce"],
-        *["map", "map info", "map convert", "map insert"],
+        *["map", "map info", "map convert", "map insert", "map build"],
         *["study", "study run", "study reference", "study report", "study worker"],
     ]:
         yield Check(f"{words} --help".strip(), [[*words.split(), "--help"]], is_timed=False)
