@@ -44,14 +44,13 @@ class StudyRun : public testing::Test {
   }
 
   /// A spec with pan grids of these steps only, besides the paper's.
-  Study grids(const std::string& steps) const {
+  Study grids(const std::string& steps, const std::string& unit_timeout_s = "60") const {
     return files.read(
         "maps: [cluttered.ot]\n"
         "starts: {sampled: {count: 2}}\n"
         "motion_times_s: [0.5]\n"
-        "unit_timeout_s: 4\n"
-        "solvers: [{solver: grid, step_pan_rad: " +
-        steps + "}]\n");
+        "unit_timeout_s: " +
+        unit_timeout_s + "\nsolvers: [{solver: grid, step_pan_rad: " + steps + "}]\n");
   }
 
   const test::StudyFiles files;
@@ -141,12 +140,13 @@ TEST_F(StudyRun, ASolverThatThrowsCostsItsUnits) {
 }
 
 TEST_F(StudyRun, ASolverThatHangsIsStopped) {
-  const Study study = grids("[0.12, 0.3]");
+  // Long enough for the others' units on a machine that is busy.
+  const Study study = grids("[0.12, 0.3]", "10");
   const experiment::RunResult result = run(study, "out");
   EXPECT_EQ(result.finished, 12U);
   EXPECT_EQ(result.failed, 2U);
   const Results results = read_results(study, folder("out"));
-  EXPECT_EQ(results.runs[0].failure, "stopped by the watchdog after 4 s");
+  EXPECT_EQ(results.runs[0].failure, "stopped by the watchdog after 10 s");
 }
 
 TEST_F(StudyRun, ASolverThatEndsItsWorkerCostsItsUnits) {
