@@ -24,7 +24,7 @@ struct Element {
 
 enum class Format { ascii, binary_little_endian, binary_big_endian };
 
-struct Header {
+struct PlyHeader {
   Format format = Format::ascii;
   std::vector<Element> elements;
 };
@@ -34,7 +34,7 @@ class PlyReader {
   PlyReader(std::istream& in, const std::string& name) : in_(in, name) {}
 
   Scan read() {
-    const Header header = read_header();
+    const PlyHeader header = read_header();
     for (const Element& element : header.elements) {
       if (element.name == "vertex") return read_vertices(element, header.format);
       skip(element, header.format);
@@ -47,9 +47,9 @@ class PlyReader {
     in_.refuse_line("'" + line.substr(0, 60) + "' is not understood in a PLY header");
   }
 
-  Header read_header() {
+  PlyHeader read_header() {
     if (in_.needed_line() != "ply") in_.refuse("this is not a PLY file");
-    Header header;
+    PlyHeader header;
     bool has_format = false;
     while (true) {
       const std::string line = in_.needed_line();

@@ -37,7 +37,7 @@ std::vector<double> evenly_spaced(double min, double max, int count) {
 }
 
 /// What the axes span, and where it lies on the page.
-struct Chart {
+struct GainChart {
   Rectangle panel;
   double pan_min_rad;
   double pan_max_rad;
@@ -49,7 +49,7 @@ struct Chart {
   }
 };
 
-Chart make_chart(const Rectangle& panel, const PlotInput& input, const GainCurve& curve) {
+GainChart make_chart(const Rectangle& panel, const PlotInput& input, const GainCurve& curve) {
   // A frozen pan is drawn with some room on both sides; a chart without gain still has a scale.
   constexpr double kLeastWidth_rad = 0.2;
   constexpr double kHeadroom = 1.12;
@@ -61,7 +61,7 @@ Chart make_chart(const Rectangle& panel, const PlotInput& input, const GainCurve
   return {panel, middle_rad - 0.5 * width_rad, middle_rad + 0.5 * width_rad, kHeadroom * gain_max};
 }
 
-void draw_axes(Canvas& canvas, const Chart& chart) {
+void draw_axes(Canvas& canvas, const GainChart& chart) {
   const Rectangle& panel = chart.panel;
   const Ticks gains = make_ticks(0.0, chart.gain_max, 8);
   for (const double gain : gains.values) {
@@ -76,7 +76,7 @@ void draw_axes(Canvas& canvas, const Chart& chart) {
 
 /// The area between two gains along the curve.
 template <typename Lower, typename Upper>
-Line band(const Chart& chart, const GainCurve& curve, Lower lower, Upper upper) {
+Line band(const GainChart& chart, const GainCurve& curve, Lower lower, Upper upper) {
   Line area;
   const std::size_t n = curve.view.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -88,7 +88,7 @@ Line band(const Chart& chart, const GainCurve& curve, Lower lower, Upper upper) 
   return area;
 }
 
-void draw_curve(Canvas& canvas, const Chart& chart, const GainCurve& curve) {
+void draw_curve(Canvas& canvas, const GainChart& chart, const GainCurve& curve) {
   const auto nothing = [](const ViewGain&) { return 0.0; };
   const auto from_unknown = [](const ViewGain& view) { return view.unknown_gain; };
   const auto total = [](const ViewGain& view) { return view.gain; };
@@ -102,14 +102,14 @@ void draw_curve(Canvas& canvas, const Chart& chart, const GainCurve& curve) {
 }
 
 /// A view's pan and gain.
-void draw_mark(Canvas& canvas, const Chart& chart, double pan_rad, double gain,
+void draw_mark(Canvas& canvas, const GainChart& chart, double pan_rad, double gain,
                const Stroke& stroke, Colour disc) {
   const Eigen::Vector2d at = chart.to_page(pan_rad, gain);
   canvas.stroke_open(Line{{at.x(), chart.panel.y}, {at.x(), chart.panel.bottom()}}, stroke);
   canvas.disc(at, 5.0, disc, {stroke.colour, 2.0});
 }
 
-void draw_marks(Canvas& canvas, const Chart& chart, const PlotInput& input) {
+void draw_marks(Canvas& canvas, const GainChart& chart, const PlotInput& input) {
   const PlanResult& result = input.result;
   draw_mark(canvas, chart, result.request.joints.pan_rad, result.current.gain,
             style::current_stroke(), style::kPaper);
@@ -117,7 +117,7 @@ void draw_marks(Canvas& canvas, const Chart& chart, const PlotInput& input) {
             style::kChosen);
 }
 
-void draw_candidates(Canvas& canvas, const Chart& chart, const GainCurve& candidates) {
+void draw_candidates(Canvas& canvas, const GainChart& chart, const GainCurve& candidates) {
   for (std::size_t i = 0; i < candidates.view.size(); ++i) {
     canvas.disc(chart.to_page(candidates.pan_rad[i], candidates.view[i].gain), 3.0, style::kPaper,
                 {style::kInk, 1.2});
@@ -129,7 +129,7 @@ void draw_candidates(Canvas& canvas, const Chart& chart, const GainCurve& candid
 void draw_gain(Canvas& canvas, const Rectangle& panel, const PlotInput& input) {
   const JointBox& box = input.result.box;
   const GainCurve curve = sample(input, evenly_spaced(box.min[0], box.max[0], kSamples));
-  const Chart chart = make_chart(panel, input, curve);
+  const GainChart chart = make_chart(panel, input, curve);
   draw_axes(canvas, chart);
   draw_curve(canvas, chart, curve);
   canvas.stroke_open(Line{{panel.x, panel.bottom()}, {panel.right(), panel.bottom()}},

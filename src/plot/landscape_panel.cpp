@@ -13,7 +13,7 @@ namespace {
 using Line = std::vector<Eigen::Vector2d>;
 
 /// What the axes span, and where it lies on the page.
-struct Chart {
+struct LandscapeChart {
   Rectangle panel;
   Eigen::Vector2d min_rad;  ///< pan, tilt
   Eigen::Vector2d max_rad;
@@ -27,7 +27,7 @@ struct Chart {
   Eigen::Vector2d to_page(const JointPosition& q) const { return to_page(q.pan_rad, q.tilt_rad); }
 };
 
-Chart make_chart(const Rectangle& panel, const PlotInput& input) {
+LandscapeChart make_chart(const Rectangle& panel, const PlotInput& input) {
   // A frozen joint is drawn with some room on both sides; no gain at all still has a scale.
   constexpr double kLeastWidth_rad = 0.2;
   const auto box_min = input.result.box.min.head<2>().array();
@@ -39,7 +39,7 @@ Chart make_chart(const Rectangle& panel, const PlotInput& input) {
           std::max(1.0, *std::max_element(gain.begin(), gain.end()))};
 }
 
-void draw_gains(Canvas& canvas, const Chart& chart, const Landscape& landscape) {
+void draw_gains(Canvas& canvas, const LandscapeChart& chart, const Landscape& landscape) {
   Raster raster{static_cast<int>(chart.panel.width), static_cast<int>(chart.panel.height), {}};
   const Eigen::Vector2d step_rad =
       (chart.max_rad - chart.min_rad).cwiseQuotient(Eigen::Vector2d(raster.columns, raster.rows));
@@ -54,7 +54,7 @@ void draw_gains(Canvas& canvas, const Chart& chart, const Landscape& landscape) 
   canvas.draw(raster, chart.panel);
 }
 
-void draw_axes(Canvas& canvas, const Chart& chart) {
+void draw_axes(Canvas& canvas, const LandscapeChart& chart) {
   const Rectangle& panel = chart.panel;
   canvas.stroke(panel, {style::kMutedInk, 1.0});
   draw_axis_below(
@@ -65,7 +65,7 @@ void draw_axes(Canvas& canvas, const Chart& chart) {
       [&](double tilt_rad) { return chart.to_page(0.0, tilt_rad).y(); }, "tilt (rad)", 12.0, 48.0);
 }
 
-void draw_scale(Canvas& canvas, const Chart& chart) {
+void draw_scale(Canvas& canvas, const LandscapeChart& chart) {
   const Rectangle bar{chart.panel.right() + 20.0, chart.panel.y, 14.0, chart.panel.height};
   Raster ramp{1, 128, {}};
   for (int row = 0; row < ramp.rows; ++row) {
@@ -110,7 +110,7 @@ void mark_answer(Canvas& canvas, const Eigen::Vector2d& at) {
   canvas.disc(at, 5.5, style::kChosen, {style::kChosen, 2.0});
 }
 
-void draw_marks(Canvas& canvas, const Chart& chart, const PlotInput& input) {
+void draw_marks(Canvas& canvas, const LandscapeChart& chart, const PlotInput& input) {
   Line path;
   for (const TracePoint& point : improvements(input.result.trace)) {
     path.push_back(chart.to_page(point.joints));
@@ -166,7 +166,7 @@ void draw_legend(Canvas& canvas, const Rectangle& panel, const PlotInput& input)
 }  // namespace
 
 void draw_landscape(Canvas& canvas, const Rectangle& panel, const PlotInput& input) {
-  const Chart chart = make_chart(panel, input);
+  const LandscapeChart chart = make_chart(panel, input);
   draw_gains(canvas, chart, input.landscape);
   draw_axes(canvas, chart);
   draw_scale(canvas, chart);

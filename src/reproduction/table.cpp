@@ -14,7 +14,7 @@ namespace {
 using Episodes = std::map<std::size_t, EpisodeReport>;
 
 /// A number of an episode.
-using Figure = double (*)(const EpisodeReport&);
+using FigureOf = double (*)(const EpisodeReport&);
 
 double duration_s(const EpisodeReport& episode) { return episode.summary.duration_s; }
 double voxels(const EpisodeReport& episode) { return static_cast<double>(episode.summary.voxels); }
@@ -54,7 +54,7 @@ class ResultIndex {
   std::span<const UnitResult> results_;
 };
 
-double mean(const Episodes& episodes, Figure figure) {
+double mean(const Episodes& episodes, FigureOf figure) {
   double sum = 0.0;
   for (const auto& [start, episode] : episodes) sum += figure(episode);
   return sum / static_cast<double>(episodes.size());
@@ -85,7 +85,7 @@ void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes
   const Episodes episodes = shared_with(all_episodes, all_still);
   const Episodes still = shared_with(all_still, all_episodes);
   if (episodes.empty()) return;
-  const auto percent = [&](Figure figure) {
+  const auto percent = [&](FigureOf figure) {
     return 100.0 * (mean(episodes, figure) / mean(still, figure) - 1.0);
   };
   row.voxels_percent = percent(voxels);

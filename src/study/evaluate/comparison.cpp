@@ -9,7 +9,7 @@
 namespace nbvopt::study {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// [solver][case]: the mean ratio over seeds, NaN where there is none.
 std::vector<std::vector<double>> mean_ratios(const Results& results) {
@@ -50,9 +50,9 @@ std::vector<Comparison> compare_with_control(const Results& results) {
     }
     rows.push_back({.solver = solver,
                     .test = signed_rank_test(differences),
-                    .holm_p = kNaN,
+                    .holm_p = kUnknown,
                     .median_difference = quantile(differences, 0.5)});
-    p.push_back(differences.empty() ? kNaN : rows.back().test.p);
+    p.push_back(differences.empty() ? kUnknown : rows.back().test.p);
   }
   const std::vector<double> corrected = holm(p);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].holm_p = corrected[i];
