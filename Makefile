@@ -65,7 +65,7 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 docs: packages-docs  ## make a site of the documentation and the headers in build/docs/site; warnings are errors
 	@docs/site/build.sh
 
-sanitize:  ## run all tests under the address and undefined-behaviour sanitizers
+sanitize:  ## run the tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory test PRESET=sanitize
 
 sanitize-threads:  ## run the server's tests under the thread sanitizer
