@@ -12,14 +12,15 @@
 #include "cli/study.hpp"
 #include "cli/terminal/exit_code.hpp"
 #include "cli/terminal/output.hpp"
+#include "cli/world.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map,  set_up_reproduce,
-                                  set_up_serve, set_up_simulate, set_up_study};
+constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map,   set_up_reproduce,
+                                  set_up_serve, set_up_simulate, set_up_study, set_up_world};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

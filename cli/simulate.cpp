@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/options/simulate_arguments.hpp"
+#include "cli/options/start_place.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
@@ -17,14 +18,36 @@
 namespace nbvopt {
 namespace {
 
-DriveOptions drive_options(const SimulateOptions& options) {
+/// A world that can be cast at.
+struct ReadyWorld {
+  explicit ReadyWorld(const World& world) : bounds_m(world.bounds_m), scene(world.mesh) {}
+
+  Eigen::AlignedBox3d bounds_m;
+  Scene scene;
+};
+
+/// The drive that was asked for, from the first free place where no start was given.
+DriveOptions drive_options(const SimulateOptions& options, const ReadyWorld& world) {
   DriveOptions drive = options.drive;
   drive.exploration.seed = static_cast<std::uint64_t>(options.seed);
+  if (!options.explores_open_ground) {
+    drive.exploration.world_map_m = seen_from_above(world.bounds_m);
+  }
+  if (!drive.start.empty()) return drive;
+  drive.start = first_start(world.scene, world.bounds_m, drive.exploration);
+  print_message("starts at " + pose_text(drive.start) +
+                ", a free place; --start X,Y,YAW chooses another");
   return drive;
 }
 
-Drive drive_itself(const SimulateOptions& options, const Scene& scene) {
-  DriveOptions drive = drive_options(options);
+void tell_end(const Drive& drive) {
+  if (drive.status != ExplorationStatus::open_ground) return;
+  print_message(
+      "the exploration ends where only open ground is left, beyond all that the world shows; "
+      "--open-ground explores it, too, --region bounds it elsewhere");
+}
+
+Drive drive_itself(const SimulateOptions& options, const Scene& scene, DriveOptions drive) {
   std::optional<Progress> progress;
   if (!options.is_silent) {
     progress.emplace("exploring, at most", drive.exploration.duration_max_s);
@@ -33,9 +56,9 @@ Drive drive_itself(const SimulateOptions& options, const Scene& scene) {
   return make_drive(scene, drive);
 }
 
-Drive drive_of(const SimulateOptions& options, const Scene& scene) {
-  if (!options.trajectory_file.empty()) return {read_trajectory(options.trajectory_file)};
-  Drive drive = drive_itself(options, scene);
+Drive drive_of(const SimulateOptions& options, const Scene& scene, const DriveOptions& asked) {
+  Drive drive = drive_itself(options, scene, asked);
+  tell_end(drive);
   if (!options.trajectory_out.empty()) write_trajectory(drive.trajectory, options.trajectory_out);
   return drive;
 }
@@ -45,8 +68,8 @@ void answer(const SimulateOptions& options, const Json& json, const std::string&
   print_answer(options.json ? to_text(json) : text);
 }
 
-void tell_drive(const SimulateOptions& options, const Drive& drive) {
-  const DriveReport report = report_of(drive, drive_options(options), options.world.world_file);
+void tell_drive(const SimulateOptions& options, const Drive& drive, const DriveOptions& asked) {
+  const DriveReport report = report_of(drive, asked, options.world.world_file);
   answer(options, to_json(report), to_text(report));
 }
 
@@ -93,15 +116,26 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
   return report;
 }
 
+void tell_episode(const SimulateOptions& options, const Scene& scene, const Drive& drive,
+                  Simulation& simulation) {
+  EpisodeReport report = run_and_keep(options, scene, drive.trajectory, simulation);
+  report.drive_status = drive.status;
+  answer(options, to_json(report), to_text(report));
+}
+
 void run_simulate(const SimulateOptions& options) {
   check(options);
   const ThreadLimit thread_limit(options.robot);
   Simulation simulation = simulation_of(options);
-  const Scene scene(read_world(options.world).mesh);
-  const Drive drive = drive_of(options, scene);
-  if (options.is_exploring_only) return tell_drive(options, drive);
-  const EpisodeReport report = run_and_keep(options, scene, drive.trajectory, simulation);
-  answer(options, to_json(report), to_text(report));
+  const ReadyWorld world(read_world(options.world));
+  if (!options.trajectory_file.empty()) {
+    return tell_episode(options, world.scene, {read_trajectory(options.trajectory_file)},
+                        simulation);
+  }
+  const DriveOptions asked = drive_options(options, world);
+  const Drive drive = drive_of(options, world.scene, asked);
+  if (options.is_exploring_only) return tell_drive(options, drive, asked);
+  tell_episode(options, world.scene, drive, simulation);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cli/options/arguments.hpp"
+#include "cli/options/region_argument.hpp"
 #include "core/atomic_file.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -18,7 +19,9 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           [&options](const std::string& text) {
             options.drive.start = numbers_argument("--start", text, {3, 4}, "X,Y,YAW or X,Y,Z,YAW");
           },
-          "where it starts to explore: metres and radians; z is the floor's when left out")
+          "where it starts to explore: metres and radians; z is the floor's when left out [the "
+          "first "
+          "free place, as nbvopt world info lists them]")
       ->type_name("X,Y[,Z],YAW");
   simulate
       .add_option_function<std::vector<std::string>>(
@@ -31,6 +34,18 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           },
           "drive here instead of exploring; several are visited in turn")
       ->type_name("X,Y");
+  simulate
+      .add_option_function<std::string>(
+          "--region",
+          [&options](const std::string& text) {
+            options.drive.exploration.region_map_m = region_argument(text);
+          },
+          "explore only here, whatever lies beyond: a rectangle, or a file with a corner x,y a "
+          "line")
+      ->type_name("X0,Y0,X1,Y1|FILE");
+  simulate.add_flag(
+      "--open-ground", options.explores_open_ground,
+      "explore farther than the lidar sees beyond all that the world shows but planes");
   simulate
       .add_option("--trajectory", options.trajectory_file,
                   "replay this drive, a CSV file that --trajectory-out wrote")
@@ -95,12 +110,10 @@ void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
 }
 
 void check(const SimulateOptions& options) {
-  if (options.trajectory_file.empty() && options.drive.start.empty()) {
-    throw UsageError("give --start X,Y,YAW to explore from, or --trajectory FILE to replay");
-  }
   if (!options.trajectory_file.empty() &&
-      !(options.drive.start.empty() && options.drive.goals_map_m.empty())) {
-    throw UsageError("--trajectory holds the whole drive: leave --start and --goal out");
+      !(options.drive.start.empty() && options.drive.goals_map_m.empty() &&
+        options.drive.exploration.region_map_m.empty())) {
+    throw UsageError("--trajectory holds the whole drive: leave --start, --goal and --region out");
   }
   if (options.is_exploring_only && !options.trajectory_file.empty()) {
     throw UsageError("--explore-only makes a trajectory: leave --trajectory out");

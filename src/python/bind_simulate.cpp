@@ -23,23 +23,28 @@ void check_signals() {
 }
 
 using Goals = std::optional<py::object>;
+using Region = std::optional<py::object>;
 
-Drive drive_through(const Scene& scene, const py::object& start, const Goals& goals,
-                    double lidar_range_m, double duration_max_s, std::uint64_t seed) {
+Drive drive_through(const ReadyWorld& world, const py::object& start, const Goals& goals,
+                    const Region& region, double lidar_range_m, double duration_max_s,
+                    std::uint64_t seed) {
   DriveOptions options{.start = vector_from(start, "start")};
   if (goals) options.goals_map_m = plane_points_from(*goals, "goals");
+  if (region) options.exploration.region_map_m = plane_points_from(*region, "region");
   options.exploration.mapping_range_m = lidar_range_m;
   options.exploration.duration_max_s = duration_max_s;
   options.exploration.seed = seed;
+  options.exploration.world_map_m = seen_from_above(world.bounds_m);
   options.exploration.progress = [](double) { check_signals(); };
   const py::gil_scoped_release release;
-  return make_drive(scene, options);
+  return make_drive(world.scene, options);
 }
 
 Drive explore_world(const WorldArgument& world, const py::object& start, const Goals& goals,
-                    double lidar_range_m, double duration_max_s, std::int64_t seed) {
+                    double lidar_range_m, double duration_max_s, std::int64_t seed,
+                    const Region& region) {
   const std::uint64_t trees_seed = seed_from(seed);
-  return drive_through(world_from(world)->scene, start, goals, lidar_range_m, duration_max_s,
+  return drive_through(*world_from(world), start, goals, region, lidar_range_m, duration_max_s,
                        trees_seed);
 }
 
@@ -53,19 +58,17 @@ Drive drive_from(const DriveArgument& trajectory) {
   return {read_trajectory(std::get<std::filesystem::path>(trajectory))};
 }
 
-std::unique_ptr<Episode> simulate(const WorldArgument& world_argument,
-                                  const std::optional<py::object>& start, const Goals& goals,
-                                  const std::optional<DriveArgument>& replayed,
-                                  double lidar_range_m, double duration_max_s,
-                                  const std::string& mode, double motion_time_s,
-                                  const py::object& joints, const Robot& robot,
-                                  const std::optional<double>& capture_hz, bool charge_computing,
-                                  double range_noise_m, double resolution_m, std::int64_t seed) {
+std::unique_ptr<Episode> simulate(
+    const WorldArgument& world_argument, const std::optional<py::object>& start, const Goals& goals,
+    const std::optional<DriveArgument>& replayed, double lidar_range_m, double duration_max_s,
+    const std::string& mode, double motion_time_s, const py::object& joints, const Robot& robot,
+    const std::optional<double>& capture_hz, bool charge_computing, double range_noise_m,
+    double resolution_m, std::int64_t seed, const Region& region) {
   if (!start && !replayed) {
     throw InputError("give a start to explore from, or a trajectory to replay");
   }
-  if (replayed && (start || goals)) {
-    throw InputError("trajectory holds the whole drive: leave start and goals out");
+  if (replayed && (start || goals || region)) {
+    throw InputError("trajectory holds the whole drive: leave start, goals and region out");
   }
   SimulationOptions options;
   options.mode = mode;
@@ -81,11 +84,12 @@ std::unique_ptr<Episode> simulate(const WorldArgument& world_argument,
   Simulation simulation(options);
   const SharedWorld world = world_from(world_argument);
   const Drive drive = replayed ? drive_from(*replayed)
-                               : drive_through(world->scene, *start, goals, lidar_range_m,
+                               : drive_through(*world, *start, goals, region, lidar_range_m,
                                                duration_max_s, options.episode.seed);
   const py::gil_scoped_release release;
-  const EpisodeReport report =
+  EpisodeReport report =
       simulation.run(world->scene, drive.trajectory, [](const Capture&) { check_signals(); });
+  report.drive_status = drive.status;
   return std::make_unique<Episode>(
       Episode{drive, robot, simulation.captures(), report,
               std::make_shared<SharedMap>(std::move(simulation.map()))});
@@ -98,15 +102,18 @@ constexpr const char* kExploreText =
     "z the base starts on the floor.\n"
     "goals: (N, 2), x and y in the map; visited in turn instead of exploring.\n"
     "lidar_range_m: beams are cropped here for the map in the plane.\n"
-    "duration_max_s: when the exploration must end. seed: of its random trees.\n\n"
+    "duration_max_s: when the exploration must end. seed: of its random trees.\n"
+    "region: (N, 2), the corners of a polygon in which frontiers and goals must lie; None: all "
+    "that "
+    "the world shows but planes, and lidar_range_m around it.\n\n"
     "ValueError: a wrong shape, no floor below the start, a start that is not free, a goal that "
     "cannot be reached.";
 
 constexpr const char* kSimulateText =
     "Runs an episode of mapping and returns it as an Episode: what `nbvopt simulate` does, to the "
     "last bit.\n\n"
-    "world, start, goals, lidar_range_m, duration_max_s: as explore() has them.\n"
-    "trajectory: a Drive to replay instead, or the path of one; without start and goals.\n"
+    "world, start, goals, lidar_range_m, duration_max_s, region: as explore() has them.\n"
+    "trajectory: a Drive to replay instead, or the path of one; without start, goals and region.\n"
     "mode: how the next view is chosen: \"static\", \"grid\", \"grid-3\", \"auto\" or \"random\".\n"
     "motion_time_s: from one capture to the next; joints move within it.\n"
     "joints: (pan, tilt, height) at the start. robot: whose camera and mast it is.\n"
@@ -126,7 +133,7 @@ void bind_simulate(py::module_& module) {
   module.def("explore", &explore_world, py::arg("world"), py::arg("start"), py::kw_only(),
              py::arg("goals") = py::none(), py::arg("lidar_range_m") = exploration.mapping_range_m,
              py::arg("duration_max_s") = exploration.duration_max_s, py::arg("seed") = 1,
-             kExploreText);
+             py::arg("region") = py::none(), kExploreText);
   module.def("simulate", &simulate, py::arg("world"), py::kw_only(), py::arg("start") = py::none(),
              py::arg("goals") = py::none(), py::arg("trajectory") = py::none(),
              py::arg("lidar_range_m") = exploration.mapping_range_m,
@@ -138,7 +145,8 @@ void bind_simulate(py::module_& module) {
                                                 defaults.episode.start_joints.height_m),
              py::arg_v("robot", Robot{}, "Robot()"), py::arg("capture_hz") = py::none(),
              py::arg("charge_computing") = false, py::arg("range_noise_m") = 0.0,
-             py::arg("resolution_m") = defaults.resolution_m, py::arg("seed") = 1, kSimulateText);
+             py::arg("resolution_m") = defaults.resolution_m, py::arg("seed") = 1,
+             py::arg("region") = py::none(), kSimulateText);
 }
 
 }  // namespace nbvopt::python

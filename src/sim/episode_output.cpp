@@ -14,10 +14,18 @@ namespace {
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 ExplorationStatus status_of(const std::string& name) {
-  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::time_limit}) {
+  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::open_ground,
+                            ExplorationStatus::time_limit}) {
     if (name == to_string(status)) return status;
   }
   throw InputError("the status '" + name + "' of a drive is not known");
+}
+
+/// None where it was not told.
+std::optional<ExplorationStatus> drive_status_of(const Json& json) {
+  const auto status = json.find("drive_status");
+  if (status == json.end() || status->is_null()) return std::nullopt;
+  return status_of(status->get<std::string>());
 }
 
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
@@ -87,34 +95,36 @@ std::string to_text(const DriveReport& report) {
 Json to_json(const EpisodeReport& report) {
   const EpisodeSummary& summary = report.summary;
   const PredictionRecord& prediction = summary.prediction;
-  return {{"world", report.world},
-          {"mode", report.mode},
-          {"motion_time_s", report.motion_time_s},
-          {"seed", report.seed},
-          {"duration_s", summary.duration_s},
-          {"captures", summary.captures},
-          {"voxels", summary.voxels},
-          {"information", summary.information},
-          {"voxels_as_paper_counts", report.paper_counts.voxels},
-          {"information_as_paper_counts", report.paper_counts.information},
-          {"prediction",
-           {{"steps", prediction.steps},
-            {"correlation", number_or_null(prediction.correlation())},
-            {"predicted_sum", prediction.sum_x},
-            {"realised_sum", prediction.sum_y},
-            {"bias", number_or_null(prediction.bias())},
-            {"pooled",
-             {{"sum_x", prediction.sum_x},
-              {"sum_y", prediction.sum_y},
-              {"sum_xx", prediction.sum_xx},
-              {"sum_yy", prediction.sum_yy},
-              {"sum_xy", prediction.sum_xy}}}}},
-          {"times_ms",
-           {{"render", report.times.render_ms},
-            {"insert", report.times.insert_ms},
-            {"grid", report.times.grid_ms},
-            {"plan", report.times.plan_ms},
-            {"episode", report.elapsed_ms}}}};
+  return {
+      {"world", report.world},
+      {"mode", report.mode},
+      {"motion_time_s", report.motion_time_s},
+      {"seed", report.seed},
+      {"drive_status", report.drive_status ? Json(to_string(*report.drive_status)) : Json(nullptr)},
+      {"duration_s", summary.duration_s},
+      {"captures", summary.captures},
+      {"voxels", summary.voxels},
+      {"information", summary.information},
+      {"voxels_as_paper_counts", report.paper_counts.voxels},
+      {"information_as_paper_counts", report.paper_counts.information},
+      {"prediction",
+       {{"steps", prediction.steps},
+        {"correlation", number_or_null(prediction.correlation())},
+        {"predicted_sum", prediction.sum_x},
+        {"realised_sum", prediction.sum_y},
+        {"bias", number_or_null(prediction.bias())},
+        {"pooled",
+         {{"sum_x", prediction.sum_x},
+          {"sum_y", prediction.sum_y},
+          {"sum_xx", prediction.sum_xx},
+          {"sum_yy", prediction.sum_yy},
+          {"sum_xy", prediction.sum_xy}}}}},
+      {"times_ms",
+       {{"render", report.times.render_ms},
+        {"insert", report.times.insert_ms},
+        {"grid", report.times.grid_ms},
+        {"plan", report.times.plan_ms},
+        {"episode", report.elapsed_ms}}}};
 }
 
 EpisodeReport episode_report_of(const Json& json) {
@@ -147,7 +157,8 @@ EpisodeReport episode_report_of(const Json& json) {
                     .insert_ms = number(times_ms, "insert"),
                     .grid_ms = number(times_ms, "grid"),
                     .plan_ms = number(times_ms, "plan")},
-          .elapsed_ms = number(times_ms, "episode")};
+          .elapsed_ms = number(times_ms, "episode"),
+          .drive_status = drive_status_of(json)};
 }
 
 std::string to_text(const EpisodeReport& report) {

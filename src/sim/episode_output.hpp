@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct EpisodeReport {
   PaperCounts paper_counts;
   StepTimes times;
   double elapsed_ms = 0.0;  ///< of the whole episode
+  /// How the drive ended that was made for it; none: it was replayed.
+  std::optional<ExplorationStatus> drive_status = {};
 };
 
 Json to_json(const Capture& capture);

@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "nbvopt/core/error.hpp"
 
@@ -147,6 +148,27 @@ void Scene::first_hits(const Eigen::Vector3d& origin_map_m,
                                     &distances_m[first]);
                       }
                     });
+}
+
+std::optional<SurfaceHit> Scene::first_surface(const Eigen::Vector3d& origin_map_m,
+                                               const Eigen::Vector3f& direction_map,
+                                               float range_max_m) const {
+  const Eigen::Vector3f origin = origin_map_m.cast<float>();
+  RTCRayHit ray{};
+  std::tie(ray.ray.org_x, ray.ray.org_y, ray.ray.org_z) =
+      std::tuple(origin.x(), origin.y(), origin.z());
+  std::tie(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z) =
+      std::tuple(direction_map.x(), direction_map.y(), direction_map.z());
+  ray.ray.tfar = range_max_m;
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(embree_->scene, &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Eigen::Vector3f normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+  return SurfaceHit{.distance_m = ray.ray.tfar, .is_outside = normal.dot(direction_map) < 0.0F};
 }
 
 }  // namespace nbvopt

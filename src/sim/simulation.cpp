@@ -31,6 +31,11 @@ Transform start_pose(const std::vector<double>& start, const Scene& scene) {
 
 }  // namespace
 
+Eigen::AlignedBox2d seen_from_above(const Eigen::AlignedBox3d& bounds_m) {
+  if (bounds_m.isEmpty()) return {};
+  return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
+}
+
 Drive make_drive(const Scene& scene, const DriveOptions& options) {
   const Transform T_map_base = start_pose(options.start, scene);
   Exploration exploration =

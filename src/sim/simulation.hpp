@@ -1,7 +1,7 @@
 // A simulation as users run it: the base drives by itself, and the camera maps along the drive.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +24,9 @@ struct DriveOptions {
   std::vector<Eigen::Vector2d> goals_map_m = {};  ///< driven to in turn; empty: the base explores
   ExplorationOptions exploration = {};
 };
+
+/// A box from above, as ExplorationOptions::world_map_m takes a world's; empty where that is.
+Eigen::AlignedBox2d seen_from_above(const Eigen::AlignedBox3d& bounds_m);
 
 /// What an episode follows, and how it came about where it was made just now.
 struct Drive {

@@ -120,7 +120,6 @@ TEST_F(Simulate, KeepsTheMapOfAnEpisodeThatTheDiskEnded) {
 }
 
 TEST_F(Simulate, RefusesAWrongCommandLine) {
-  expect_refusal(nbvopt_run({"simulate", kOffice, "--no-cache"}), 2, "--start X,Y,YAW");
   expect_refusal(nbvopt_run(episode({"--start", "0,0,0"})), 2, "--trajectory holds the whole");
   expect_refusal(nbvopt_run(episode({"--explore-only"})), 2, "--explore-only");
   expect_refusal(nbvopt_run(drive({"--start", "1,1,0", "--map-out", folder / "map.ot"})), 2,

@@ -56,7 +56,8 @@ TEST(EpisodeReport, MissesEveryFigure) {
 }
 
 TEST(DriveReport, IsTheSameAfterItsWay) {
-  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::time_limit}) {
+  for (const auto status : {ExplorationStatus::complete, ExplorationStatus::open_ground,
+                            ExplorationStatus::time_limit}) {
     const Json json = to_json(DriveReport{.world = "room.world",
                                           .start = {1.0, 0.1, 1.57},
                                           .status = status,

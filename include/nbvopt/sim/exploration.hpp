@@ -2,11 +2,12 @@
 // from.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/sim/occupancy_grid.hpp"
@@ -32,12 +33,20 @@ struct ExplorationOptions {
   double cell_m = 0.05;          ///< of the occupancy grid
   std::uint64_t seed = 1;        ///< of the trees
   double duration_max_s = 7200.0;
+  /// Frontiers and goals must lie in this polygon (x, y in the map), which closes itself; empty:
+  /// they may lie anywhere.
+  std::vector<Eigen::Vector2d> region_map_m = {};
+  /// The box of all that the world shows but planes; empty: not known. More than mapping_range_m
+  /// beyond it lies open ground, where nothing is to be found: unless there is a region, frontiers
+  /// there are left alone.
+  Eigen::AlignedBox2d world_map_m = {};
   std::function<void(double time_s)> progress;  ///< called now and then; may throw to end it
 };
 
 enum class ExplorationStatus {
-  complete,    ///< no frontier is left that can be reached
-  time_limit,  ///< duration_max_s came first
+  complete,     ///< no frontier is left that can be reached
+  open_ground,  ///< but some are left alone on open ground
+  time_limit,   ///< duration_max_s came first
 };
 std::string to_string(ExplorationStatus status);
 
@@ -50,13 +59,14 @@ struct Exploration {
 
 /// Explores all that can be reached from the start, with frontiers found by rapidly-exploring
 /// random trees after Umari and Mukhopadhyay. Localisation is perfect. The same seed gives the same
-/// trajectory. Throws InputError when the start is not free (in or at a wall), an option is bad.
+/// trajectory. Throws InputError when the start is not free (in or at a wall) or lies outside of
+/// the region, or an option is bad.
 Exploration explore(const Scene& scene, const Transform& T_map_base,
                     const ExplorationOptions& options);
 
 /// Drives to the goals (x, y in the map) in turn, through what is free or not yet known, planning
-/// again as the lidar shows more. Throws InputError as above, and when a goal cannot be reached
-/// (named with its number and position).
+/// again as the lidar shows more. Throws InputError as above, and when a goal cannot be reached or
+/// lies outside of the region (named with its number and position).
 Exploration drive_to(const Scene& scene, const Transform& T_map_base,
                      std::span<const Eigen::Vector2d> goals_map_m,
                      const ExplorationOptions& options);

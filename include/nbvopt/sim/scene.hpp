@@ -3,11 +3,18 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "nbvopt/sim/triangle_mesh.hpp"
 
 namespace nbvopt {
+
+/// Where a ray meets a surface.
+struct SurfaceHit {
+  double distance_m;
+  bool is_outside;  ///< seen from the side from which the triangle's corners turn left
+};
 
 /// A static world in the map frame, ready for casting (Embree). Const and safe to share between
 /// threads.
@@ -24,6 +31,11 @@ class Scene {
   void first_hits(const Eigen::Vector3d& origin_map_m,
                   std::span<const Eigen::Vector3f> directions_map, float range_max_m,
                   std::span<float> distances_m) const;
+
+  /// The first surface along one ray of unit length; none where none is nearer than range_max_m.
+  std::optional<SurfaceHit> first_surface(const Eigen::Vector3d& origin_map_m,
+                                          const Eigen::Vector3f& direction_map,
+                                          float range_max_m) const;
 
  private:
   struct Embree;

@@ -33,6 +33,7 @@ struct World {
   std::uint64_t models = 0;      ///< top-level ones; 0 for a single mesh
   std::uint64_t nested_models = 0;
   std::vector<std::string> warnings;  ///< one line each: what is missing, faulty or left out
+  std::vector<std::string> missing;   ///< those of them that keep a part out of the world
 };
 
 /// Reads a Gazebo world (.world, .sdf) or a single mesh (PLY, OBJ, STL, COLLADA; metres). Throws

@@ -7,6 +7,7 @@
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sim/exploration.hpp"
+#include "sim/exploration/drive_region.hpp"
 #include "sim/exploration/grid_planner.hpp"
 #include "sim/exploration/plane_robot.hpp"
 
@@ -63,6 +64,7 @@ Exploration drive_to(const Scene& scene, const Transform& T_map_base,
     }
   }
   PlaneRobot robot(scene, T_map_base, options);
+  const DriveRegion region(options);
   const DriveCosts costs = robot.drive_costs(/*through_unknown=*/true);
   ExplorationStatus status = ExplorationStatus::complete;
   for (std::size_t i = 0; i < goals_map_m.size() && status == ExplorationStatus::complete; ++i) {
@@ -71,6 +73,7 @@ Exploration drive_to(const Scene& scene, const Transform& T_map_base,
     const std::string name = "goal " + std::to_string(i + 1) + " (" +
                              format_number(goal_map_m.x()) + ", " + format_number(goal_map_m.y()) +
                              ")";
+    if (!region.contains(goal_map_m)) throw InputError(name + " lies outside of the region");
     if (distance_m > kFarthestGoal_m) {
       throw InputError(name + " is " + format_number(std::round(distance_m)) +
                        " m away, it must be at most 200 m: give others on the way");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -5,6 +6,7 @@
 
 #include "core/enum_names.hpp"
 #include "nbvopt/sim/exploration.hpp"
+#include "sim/exploration/drive_region.hpp"
 #include "sim/exploration/frontier_filter.hpp"
 #include "sim/exploration/frontier_trees.hpp"
 #include "sim/exploration/goal_assignment.hpp"
@@ -15,6 +17,7 @@ namespace nbvopt {
 template <>
 inline constexpr auto kEnumNames<ExplorationStatus> = std::to_array<EnumName<ExplorationStatus>>({
     {ExplorationStatus::complete, "complete"},
+    {ExplorationStatus::open_ground, "open_ground"},
     {ExplorationStatus::time_limit, "time_limit"},
 });
 
@@ -26,7 +29,8 @@ constexpr int kPatience = 15;
 class Explorer {
  public:
   Explorer(const Scene& scene, const Transform& T_map_base, const ExplorationOptions& options)
-      : robot_(scene, T_map_base, options),
+      : region_(options),
+        robot_(scene, T_map_base, options),
         costs_(robot_.drive_costs(/*through_unknown=*/false)),
         trees_(robot_.position_map_m(), options.seed) {}
 
@@ -36,7 +40,7 @@ class Explorer {
       find_frontiers();
       if (needs_goal()) choose_goal();
       if (is_done()) {
-        status = ExplorationStatus::complete;
+        status = leaves_open_ground_ ? ExplorationStatus::open_ground : ExplorationStatus::complete;
         break;
       }
       robot_.drive_to_next_scan();
@@ -46,8 +50,13 @@ class Explorer {
   }
 
  private:
-  void find_frontiers() {
-    frontiers_.add(robot_.grid(), trees_.grow(robot_.grid(), robot_.position_map_m()));
+  void find_frontiers() { add_frontiers(trees_.grow(robot_.grid(), robot_.position_map_m())); }
+
+  void add_frontiers(std::vector<Eigen::Vector2d> points_map_m) {
+    std::erase_if(points_map_m, [&](const Eigen::Vector2d& point) {
+      return !region_.contains(point) || region_.is_open_ground(point);
+    });
+    frontiers_.add(robot_.grid(), points_map_m);
   }
 
   bool needs_goal() {
@@ -79,19 +88,25 @@ class Explorer {
     idle_scans_ = goal_frontier_map_m_ ? 0 : idle_scans_ + 1;
     if (idle_scans_ < kPatience) return false;
     frontiers_.forget_aside();
-    frontiers_.add(robot_.grid(), reachable_border());
+    const std::vector<Eigen::Vector2d> border_map_m = reachable_border();
+    add_frontiers(border_map_m);
+    leaves_open_ground_ = std::ranges::any_of(border_map_m, [&](const Eigen::Vector2d& point) {
+      return region_.is_open_ground(point) && is_worth_a_way(unknown_area_m2(robot_.grid(), point));
+    });
     return frontiers_.frontiers().empty();
   }
 
   /// The free cells beside unknown ones that can be approached.
   std::vector<Eigen::Vector2d> reachable_border() const;
 
+  DriveRegion region_;
   PlaneRobot robot_;
   DriveCosts costs_;
   FrontierTrees trees_;
   FrontierFilter frontiers_;
   std::optional<Eigen::Vector2d> goal_frontier_map_m_;
   int idle_scans_ = 0;
+  bool leaves_open_ground_ = false;
 };
 
 std::vector<Eigen::Vector2d> Explorer::reachable_border() const {

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/field_check.hpp"
+#include "nbvopt/core/error.hpp"
+#include "sim/exploration/drive_region.hpp"
 #include "sim/exploration/start_check.hpp"
 
 namespace nbvopt {
@@ -44,6 +46,11 @@ void validate(const ExplorationOptions& options) {
 const ExplorationOptions& checked(const Scene& scene, const Transform& T_map_base,
                                   const ExplorationOptions& options) {
   validate(options);
+  const Eigen::Vector2d position_map_m = T_map_base.translation().head<2>();
+  if (!DriveRegion(options).contains(position_map_m)) {
+    throw InputError("the start (" + format_number(position_map_m.x()) + ", " +
+                     format_number(position_map_m.y()) + ") lies outside of the region");
+  }
   require_free_start(scene, T_map_base, options);
   return options;
 }

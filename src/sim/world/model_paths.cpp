@@ -141,8 +141,8 @@ std::optional<fs::path> ModelPaths::find_in_fuel_caches(const FuelAddress& addre
   for (const fs::path& cache : fuel_caches_) {
     std::vector<fs::path> hosts = entries(cache);
     // Fuel has moved: the same model may lie under the older name of its host.
-    std::ranges::stable_partition(hosts,
-                                  [&](const fs::path& h) { return h.filename() == address.host; });
+    std::stable_partition(hosts.begin(), hosts.end(),
+                          [&](const fs::path& h) { return h.filename() == address.host; });
     for (const fs::path& host : hosts) {
       const auto model = descend(host, fs::path(address.owner) / "models" / address.name);
       const auto version = model ? version_in(*model, address.version) : std::nullopt;

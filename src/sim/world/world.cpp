@@ -61,45 +61,46 @@ World assemble(const SdfWorld& from) {
   return world;
 }
 
-BuiltWorld build_world(const fs::path& path, const WorldOptions& options, WorldLog& log) {
+World build_world(const fs::path& path, const WorldOptions& options, WorldLog& log) {
   SdfWorld parts = read_parts(path, options, log);
   remove_stray_parts(parts.parts, log);
-  BuiltWorld built{.world = assemble(parts), .first_missing = log.first_missing().value_or("")};
-  built.world.warnings = log.warnings();
-  return built;
+  World world = assemble(parts);
+  world.warnings = log.warnings();
+  world.missing = log.missing();
+  return world;
 }
 
 /// The world from the cache, or built and kept there. That it cannot be kept is a warning.
-BuiltWorld cached_world(const fs::path& path, const WorldOptions& options) {
+World cached_world(const fs::path& path, const WorldOptions& options) {
   WorldLog log;
   if (!options.cache_folder) return build_world(path, options, log);
   const WorldCache cache(*options.cache_folder, path, options);
-  if (std::optional<BuiltWorld> kept = cache.load()) return *std::move(kept);
-  BuiltWorld built = build_world(path, options, log);
+  if (std::optional<World> kept = cache.load()) return *std::move(kept);
+  World world = build_world(path, options, log);
   // A file that appears changes the world without a trace in the files that it was built from.
-  if (!log.is_lasting()) return built;
+  if (!log.is_lasting()) return world;
   try {
-    cache.store(built, log.files());
+    cache.store(world, log.files());
   } catch (const InputError& error) {
-    built.world.warnings.push_back(std::string("the world is not kept: ") + error.what());
+    world.warnings.push_back(std::string("the world is not kept: ") + error.what());
   }
-  return built;
+  return world;
 }
 
 }  // namespace
 
 World read_world(const fs::path& path, const WorldOptions& options) {
   open_input_file(path);
-  BuiltWorld built = cached_world(path, options);
-  if (options.is_strict && !built.first_missing.empty()) {
-    throw InputError(path.string() + ": " + built.first_missing);
+  World world = cached_world(path, options);
+  if (options.is_strict && !world.missing.empty()) {
+    throw InputError(path.string() + ": " + world.missing.front());
   }
-  if (built.world.mesh.triangles.empty()) {
-    const std::vector<std::string>& warnings = built.world.warnings;
-    throw InputError(path.string() + ": there is no geometry in it" +
-                     (warnings.empty() ? "" : "; the first warning: " + warnings.front()));
+  if (world.mesh.triangles.empty()) {
+    throw InputError(
+        path.string() + ": there is no geometry in it" +
+        (world.warnings.empty() ? "" : "; the first warning: " + world.warnings.front()));
   }
-  return std::move(built.world);
+  return world;
 }
 
 }  // namespace nbvopt

@@ -49,16 +49,16 @@ FileStamp stamp_of(const fs::path& file) {
 }
 
 /// The fields in their order, for reading and for writing.
-template <class Archive, class Built>
-void archive_world(Archive& archive, Built& built) {
-  archive(built.first_missing);
-  archive(built.world.mesh.vertices_m);
-  archive(built.world.mesh.triangles);
-  for (int axis = 0; axis < 3; ++axis) archive(built.world.bounds_m.min()[axis]);
-  for (int axis = 0; axis < 3; ++axis) archive(built.world.bounds_m.max()[axis]);
-  archive(built.world.models);
-  archive(built.world.nested_models);
-  archive(built.world.warnings);
+template <class Archive, class AnyWorld>
+void archive_world(Archive& archive, AnyWorld& world) {
+  archive(world.mesh.vertices_m);
+  archive(world.mesh.triangles);
+  for (int axis = 0; axis < 3; ++axis) archive(world.bounds_m.min()[axis]);
+  for (int axis = 0; axis < 3; ++axis) archive(world.bounds_m.max()[axis]);
+  archive(world.models);
+  archive(world.nested_models);
+  archive(world.warnings);
+  archive(world.missing);
 }
 
 bool are_unchanged(const std::vector<std::string>& files, const std::vector<FileStamp>& stamps) {
@@ -67,7 +67,7 @@ bool are_unchanged(const std::vector<std::string>& files, const std::vector<File
 }
 
 /// Throws InputError when the bytes are damaged.
-std::optional<BuiltWorld> unpack(std::string_view bytes, const std::string& expected_key) {
+std::optional<World> unpack(std::string_view bytes, const std::string& expected_key) {
   ArchiveReader header(bytes);
   std::array<char, 8> found_magic{};
   std::uint32_t found_version = 0;
@@ -86,9 +86,9 @@ std::optional<BuiltWorld> unpack(std::string_view bytes, const std::string& expe
   content(files);
   content(stamps);
   if (key != expected_key || !are_unchanged(files, stamps)) return std::nullopt;
-  BuiltWorld built;
-  archive_world(content, built);
-  return built;
+  World world;
+  archive_world(content, world);
+  return world;
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ WorldCache::WorldCache(const fs::path& folder, const fs::path& world_file,
   file_ = folder_ / name.str();
 }
 
-std::optional<BuiltWorld> WorldCache::load() const {
+std::optional<World> WorldCache::load() const {
   std::error_code ignored;
   if (!fs::is_regular_file(file_, ignored)) return std::nullopt;
   try {
@@ -119,7 +119,7 @@ std::optional<BuiltWorld> WorldCache::load() const {
   }
 }
 
-void WorldCache::store(const BuiltWorld& built, const std::set<fs::path>& files) const {
+void WorldCache::store(const World& world, const std::set<fs::path>& files) const {
   std::vector<std::string> names;
   std::vector<FileStamp> stamps;
   for (const fs::path& file : files) {
@@ -130,7 +130,7 @@ void WorldCache::store(const BuiltWorld& built, const std::set<fs::path>& files)
   content(key_);
   content(names);
   content(stamps);
-  archive_world(content, built);
+  archive_world(content, world);
   ArchiveWriter header;
   header(kMagic);
   header(kFormatVersion);

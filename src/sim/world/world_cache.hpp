@@ -10,12 +10,6 @@
 
 namespace nbvopt {
 
-/// A world as it is built, and kept.
-struct BuiltWorld {
-  World world;
-  std::string first_missing;  ///< the warning of the first part that is missing, empty: none is
-};
-
 /// The place of one world, read with certain options, in a cache folder.
 class WorldCache {
  public:
@@ -24,10 +18,10 @@ class WorldCache {
 
   /// What store() kept. None when there is nothing, it is damaged or of another version of the
   /// format, or one of the files that it was built from has another size or modification time.
-  std::optional<BuiltWorld> load() const;
+  std::optional<World> load() const;
 
   /// Keeps a world that was built from these files. Throws InputError when it cannot be written.
-  void store(const BuiltWorld& built, const std::set<std::filesystem::path>& files) const;
+  void store(const World& world, const std::set<std::filesystem::path>& files) const;
 
  private:
   std::filesystem::path folder_;

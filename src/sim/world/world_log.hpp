@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,14 +14,11 @@ namespace nbvopt {
 class WorldLog {
  public:
   /// Something is faulty, yet no part is missing.
-  void remark(std::string warning) {
-    if (std::ranges::find(warnings_, warning) == warnings_.end())
-      warnings_.push_back(std::move(warning));
-  }
+  void remark(std::string warning) { add(warnings_, std::move(warning)); }
 
   /// A part is missing, and will be as long as the files are as they are.
   void left_out(std::string warning) {
-    if (!first_missing_) first_missing_ = warning;
+    add(missing_, warning);
     remark(std::move(warning));
   }
 
@@ -36,15 +32,19 @@ class WorldLog {
   void read(const std::filesystem::path& file) { files_.insert(file); }
 
   const std::vector<std::string>& warnings() const { return warnings_; }
-  const std::optional<std::string>& first_missing() const { return first_missing_; }
+  const std::vector<std::string>& missing() const { return missing_; }  ///< some of the warnings
   const std::set<std::filesystem::path>& files() const { return files_; }
 
   /// Whether the world stays the same as long as its files do.
   bool is_lasting() const { return is_lasting_; }
 
  private:
+  static void add(std::vector<std::string>& lines, std::string line) {
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(std::move(line));
+  }
+
   std::vector<std::string> warnings_;
-  std::optional<std::string> first_missing_;
+  std::vector<std::string> missing_;
   std::set<std::filesystem::path> files_;
   bool is_lasting_ = true;
 };
