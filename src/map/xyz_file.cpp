@@ -56,7 +56,11 @@ Scan read_xyz(std::istream& in_stream, const std::string& name) {
       if (is_count(*line)) continue;
       if (!starts_with_number(*line)) {
         const auto named = named_columns(*line);
-        if (!named) in.refuse_line("neither a point 'x y z' nor the names of columns");
+        if (!named)
+          in.refuse_line(
+              "neither a point 'x y z' nor the names of columns; scans are PLY, PCD, text with a "
+              "point a "
+              "line, PNG or PGM");
         columns = *named;
         continue;
       }

@@ -249,6 +249,15 @@ TEST_F(RecordingTest, Kitti) {
   expect_the_map_by_hand({.format = RecordingFormat::kitti});
 }
 
+TEST_F(RecordingTest, KittiIsNotNuScenes) {
+  write("calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  write("velodyne/0.pcd.bin", std::string(80, '\0'));  // twenty numbers: both would fit
+  const Recording recording = find_recording(folder.path(), {.format = RecordingFormat::kitti});
+  EXPECT_THAT(test::message_of<InputError>([&] { read_frame(recording, recording.frames[0]); }),
+              HasSubstr("nuScenes"));
+}
+
 TEST_F(RecordingTest, NamedOrTimedClouds) {
   std::string by_name;
   std::string by_time;

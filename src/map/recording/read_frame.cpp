@@ -50,6 +50,11 @@ Eigen::Matrix3d rotation_map_world(UpAxis up) {
 
 /// KITTI's laser scans: x, y, z and reflectance, four floats a point.
 Scan read_laser_scan(const std::filesystem::path& file) {
+  if (file.filename().string().ends_with(".pcd.bin")) {
+    throw InputError(file.string() +
+                     ": has five numbers a point, as nuScenes has it, not KITTI's "
+                     "four: make it a PCD file");
+  }
   constexpr std::size_t kPointBytes = 4 * sizeof(float);
   std::ifstream in = open_input_file(file);
   ByteReader bytes(in);
