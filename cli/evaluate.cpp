@@ -55,13 +55,15 @@ void run_evaluate(const EvaluateOptions& options) {
   set_counting_and_gain(robot.sensor, options.view);
   const ThreadLimit thread_limit(options.view);
 
+  const std::optional<HazardTable> hazards = given_hazards(options.view);
   const Stopwatch loading;
   UncertaintyMap map = read_map(options.map_file);
   const double map_load_ms = loading.elapsed_ms();
   check_on_lattice(poses, map.lattice(), options.pose_file);
 
-  const ViewPlanner planner =
+  ViewPlanner planner =
       ViewPlanner::with_given_sensor(std::move(map), robot, options.view.evaluator);
+  if (hazards) planner.set_hazards(*hazards);
   const Stopwatch evaluating;
   const std::vector<ViewGain> gains = planner.evaluate(poses.poses_T_map_sensor);
   const double time_ms = evaluating.elapsed_ms();

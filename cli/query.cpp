@@ -75,6 +75,7 @@ QueryAnswer search_map(const QueryOptions& options) {
   const auto solver = make_solver(search_of(options.solver));
   const ThreadLimit thread_limit(options.view);
 
+  const std::optional<HazardTable> hazards = given_hazards(options.view);
   const Stopwatch loading;
   UncertaintyMap map = read_map(options.map_file);
   QueryAnswer answer;
@@ -83,8 +84,9 @@ QueryAnswer search_map(const QueryOptions& options) {
   answer.map_load_ms = loading.elapsed_ms();
   // Its time limit counts from here.
   const PlanRequest request = request_of(options, robot.mast.height_min_m);
-  const ViewPlanner planner =
+  ViewPlanner planner =
       ViewPlanner::with_given_sensor(std::move(map), robot, options.view.evaluator);
+  if (hazards) planner.set_hazards(*hazards);
   answer.result = planner.plan(request, *solver);
   write_explanations(options, planner, answer.result);
   return answer;

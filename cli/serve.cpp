@@ -79,6 +79,7 @@ void run_serve(ServeOptions& options) {
   server_options.snapshot_every =
       std::chrono::milliseconds(std::llround(options.snapshot_every_s * 1e3));
   server_options.robot = make_robot(options.robot);
+  server_options.hazards = given_hazards(options.robot).value_or(HazardTable());
   server_options.planning_threads = options.robot.threads > 0
                                         ? static_cast<std::size_t>(options.robot.threads)
                                         : std::max(1U, std::thread::hardware_concurrency());

@@ -11,6 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "plot/episode_plot.hpp"
 #include "sim/simulation.hpp"
@@ -78,6 +79,10 @@ Simulation simulation_of(const SimulateOptions& options) {
   SimulationOptions simulation = options.simulation;
   simulation.world = options.world.world_file;
   simulation.episode.robot = make_robot(options.robot);
+  simulation.episode.hazards = given_hazards(options.robot);
+  if (!options.hazards_out.empty() && simulation.episode.robot.sensor.gain != GainKind::expected) {
+    throw UsageError("--hazards-out keeps what an expected gain learns: add --gain expected");
+  }
   simulation.episode.seed = static_cast<std::uint64_t>(options.seed);
   return Simulation(std::move(simulation));
 }
@@ -108,6 +113,7 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
     throw;
   }
   keep_map();
+  if (!options.hazards_out.empty()) write_hazards(report.summary.hazards, options.hazards_out);
   if (!options.plot_out.empty()) {
     write_file_atomically(options.plot_out,
                           episode_plot_png({simulation.map(), simulation.options().episode.robot,

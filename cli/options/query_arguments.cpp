@@ -97,8 +97,9 @@ void add_server(CLI::App& query, QueryOptions& options) {
   add_pem("--tls-ca", options.tls.server_ca, "who signs the server's certificate");
   add_pem("--tls-cert", options.tls.certificate, "the caller's certificate");
   add_pem("--tls-key", options.tls.key, "its private key");
-  for (const char* ours : {"--robot", "--threads", "--evaluator", "--counting", "--gain",
-                           "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
+  for (const char* ours :
+       {"--robot", "--threads", "--evaluator", "--counting", "--gain", "--hazards",
+        "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
     query.get_option(ours)->excludes(server);
   }
 }

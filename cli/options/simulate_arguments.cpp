@@ -91,6 +91,8 @@ void add_outputs(CLI::App& simulate, SimulateOptions& options) {
     simulate.add_option(name, target, description)->type_name(type);
   };
   add_file("--map-out", options.map_out, "FILE.ot", "the map, also when the episode fails");
+  add_file("--hazards-out", options.hazards_out, "FILE.json",
+           "what an expected gain has learnt, for --hazards");
   add_file("--metrics", options.metrics_out, "FILE.jsonl", "a JSON object a capture, as they come");
   add_file("--trajectory-out", options.trajectory_out, "FILE.csv", "the drive, to be replayed");
   add_file("--summary", options.summary_out, "FILE.json", "the answer as JSON, written last");
@@ -121,13 +123,14 @@ void check(const SimulateOptions& options) {
   if (!options.trajectory_file.empty() && !options.trajectory_out.empty()) {
     throw UsageError("--trajectory-out keeps a drive that is made: leave it or --trajectory out");
   }
-  if (options.is_exploring_only &&
-      !(options.map_out.empty() && options.metrics_out.empty() && options.plot_out.empty())) {
-    throw UsageError("--explore-only maps nothing: leave --map-out, --metrics and --plot out");
+  if (options.is_exploring_only && !(options.map_out.empty() && options.hazards_out.empty() &&
+                                     options.metrics_out.empty() && options.plot_out.empty())) {
+    throw UsageError(
+        "--explore-only maps nothing: leave --map-out, --hazards-out, --metrics and --plot out");
   }
   // An episode whose outcome could not be kept would be in vain.
-  for (const std::string& file : {options.trajectory_out, options.map_out, options.metrics_out,
-                                  options.summary_out, options.plot_out}) {
+  for (const std::string& file : {options.trajectory_out, options.map_out, options.hazards_out,
+                                  options.metrics_out, options.summary_out, options.plot_out}) {
     if (!file.empty()) require_writable(file);
   }
 }

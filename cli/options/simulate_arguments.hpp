@@ -24,6 +24,7 @@ struct SimulateOptions {
   bool is_silent = false;
   std::string trajectory_out;  ///< this and all below: empty, do not write
   std::string map_out;
+  std::string hazards_out;
   std::string metrics_out;
   std::string summary_out;
   std::string plot_out;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/options/arguments.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "sensor/sensor_names.hpp"
 
@@ -27,6 +28,10 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
                  "with probabilities, learnt where scans are inserted [as the robot says]")
       ->check(CLI::IsMember(enum_names<GainKind>()))
       ->type_name("NAME");
+  app.add_option("--hazards", arguments.hazards_file,
+                 "what an expected gain takes for likely of the unknown: a file that "
+                 "simulate wrote by --hazards-out [what the drives of docs/results.md taught]")
+      ->type_name("FILE");
   add_whole_number(app, "--threads", arguments.threads, 0, 1024,
                    "most threads to use; 0: all cores. Answers do not depend on it");
 }
@@ -60,6 +65,11 @@ Robot make_robot(const ViewArguments& arguments) {
   Robot robot = make_robot(static_cast<const RobotArguments&>(arguments));
   robot.sensor = evaluator_sensor(arguments.evaluator, robot.sensor);
   return robot;
+}
+
+std::optional<HazardTable> given_hazards(const RobotArguments& arguments) {
+  if (arguments.hazards_file.empty()) return std::nullopt;
+  return read_hazards(arguments.hazards_file);
 }
 
 void set_counting_and_gain(SensorOptions& sensor, const ViewArguments& arguments) {

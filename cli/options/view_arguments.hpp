@@ -8,14 +8,16 @@
 #include <optional>
 #include <string>
 
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/planner/robot.hpp"
 
 namespace nbvopt {
 
 /// What every command that has a robot asks for.
 struct RobotArguments {
-  std::string robot_file;  ///< empty: the paper's platform
-  std::string gain;        ///< empty: as the robot says
+  std::string robot_file;    ///< empty: the paper's platform
+  std::string gain;          ///< empty: as the robot says
+  std::string hazards_file;  ///< of an expected gain; empty: nothing was learnt
   std::int64_t threads = 0;
 };
 
@@ -41,6 +43,9 @@ Robot make_robot(const RobotArguments& arguments);
 
 /// The same, its sensor as the evaluator wants it.
 Robot make_robot(const ViewArguments& arguments);
+
+/// The hazards of the file, if one was given.
+std::optional<HazardTable> given_hazards(const RobotArguments& arguments);
 
 /// Sets counting and gain where they were asked for: the command line wins over files.
 void set_counting_and_gain(SensorOptions& sensor, const ViewArguments& arguments);

@@ -10,8 +10,12 @@
 namespace nbvopt {
 
 MapStore::MapStore(const Robot& robot, const ServerLimits& limits, UncertaintyMap map,
-                   std::uint64_t version)
-    : robot_(robot), limits_(limits), map_(std::move(map)), extent_m_(checked_extent_m(map_)) {
+                   std::uint64_t version, const HazardTable& hazards)
+    : robot_(robot),
+      limits_(limits),
+      map_(std::move(map)),
+      extent_m_(checked_extent_m(map_)),
+      hazards_(hazards) {
   publish(VoxelGrid::whole(map_, version));
 }
 

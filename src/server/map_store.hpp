@@ -32,9 +32,10 @@ struct VersionedCounts {
 /// waits for them who reads what is published.
 class MapStore {
  public:
-  /// Holds `map` as version `version`. Throws LimitError when it is too large.
+  /// Holds `map` as version `version`; what scans teach is added to `hazards`. Throws LimitError
+  /// when it is too large.
   MapStore(const Robot& robot, const ServerLimits& limits, UncertaintyMap map,
-           std::uint64_t version);
+           std::uint64_t version, const HazardTable& hazards = HazardTable());
 
   const Robot& robot() const { return robot_; }
 

@@ -91,7 +91,8 @@ struct Server::Parts {
       remove_unfinished_files(options.snapshot_file);
     }
     Snapshot first = first_map(options);
-    store.emplace(options.robot, options.limits, std::move(first.map), first.version);
+    store.emplace(options.robot, options.limits, std::move(first.map), first.version,
+                  options.hazards);
     if (!keeps_snapshots) return;
     snapshots.emplace(*store, options.snapshot_file, options.snapshot_every);
     snapshots->save();  // a disk that is full or not writable shows before the first scan

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "server/limits.hpp"
 #include "server/listen_address.hpp"
@@ -16,6 +17,7 @@ namespace nbvopt {
 
 struct ServerOptions {
   Robot robot;
+  HazardTable hazards = HazardTable();     ///< that an expected gain begins with
   std::filesystem::path map_file;          ///< empty: none
   std::optional<double> new_resolution_m;  ///< of an empty map where there is no file
   std::filesystem::path snapshot_file;     ///< empty: none

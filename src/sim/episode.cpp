@@ -68,7 +68,7 @@ class EpisodeRun {
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
-    hazards_ = HazardTable(trajectory.T_map_base(0.0).translation().z());
+    hazards_ = options.hazards.value_or(HazardTable(trajectory.T_map_base(0.0).translation().z()));
   }
 
   /// The loop of Fig. 4: capture, insert, plan, move, capture.
@@ -83,6 +83,7 @@ class EpisodeRun {
       capture_on_the_way(time_s, next_s);
       time_s = next_s;
     }
+    summary_.hazards = hazards_;
     return summary_;
   }
 

@@ -7,10 +7,12 @@
 #include "gain/panorama_world.hpp"
 #include "gain/ray_passages.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 #include "support/camera_pose.hpp"
+#include "support/error_message.hpp"
 #include "support/made_map.hpp"
 
 namespace nbvopt::test {
@@ -70,7 +72,7 @@ double expected_gain(const std::shared_ptr<const VoxelGrid>& grid, const SensorO
 HazardTable varied_hazards() {
   HazardTable hazards(-0.2);
   for (std::size_t c = 0; c < HazardTable::kContexts; ++c) {
-    hazards.add(c, {.hits = 0.3 * static_cast<double>(c + 1), .metres = 1.0});
+    hazards.set(c, {.hits = 0.25 + 0.15 * static_cast<double>(c), .metres = 1.0});
   }
   return hazards;
 }
@@ -250,10 +252,14 @@ TEST_F(ExpectedPanorama, FollowsTheExactGain) {
   }
 }
 
-TEST(HazardTable, ToldNothingTakesOneHitInTwoMetres) {
+TEST(HazardTable, BeginsWithWhatIsLikelyEverywhere) {
   const HazardTable hazards;
-  EXPECT_EQ(hazards.hazard_per_m(HazardTable::unknown_context(1.0, 0.0, false)), 0.5);
-  EXPECT_EQ(hazards.hazard_per_m(HazardTable::frontier_context(true)), 0.0);
+  const auto unknown = [&](double height_m, bool beside_surface) {
+    return hazards.hazard_per_m(HazardTable::unknown_context(height_m, 1.0, beside_surface));
+  };
+  EXPECT_GT(unknown(0.0, false), unknown(1.0, false)) << "a floor comes sooner than a chair";
+  EXPECT_GT(unknown(1.0, true), unknown(1.0, false)) << "surfaces go on";
+  EXPECT_LT(hazards.hazard_per_m(HazardTable::frontier_context(false)), unknown(1.0, false));
 }
 
 TEST(HazardTable, LearnsHitsAndMetresByContext) {
@@ -291,6 +297,35 @@ TEST(HazardTable, IsNotTaughtByReturnsNearerThanTheRange) {
   scan.points_m.emplace_back(0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN());
   learn_hazards(*grid, scan, camera_at(kCamera_m), SensorOptions{}, hazards);
   EXPECT_EQ(hazards, HazardTable());
+}
+
+TEST(HazardFile, KeepsAllThatWasLearnt) {
+  const HazardTable hazards = varied_hazards();
+  EXPECT_EQ(parse_hazards(hazards_json(hazards), "h.json"), hazards);
+  EXPECT_EQ(hazard_context_names().size(), HazardTable::kContexts);
+  const HazardTable partly =
+      parse_hazards(R"({"contexts": {"unknown_middle_deep": {"hits": 3, "metres": 2}}})", "h.json");
+  EXPECT_EQ(partly.hazard_per_m(HazardTable::unknown_context(1.0, 1.0, false)), 1.5);
+  EXPECT_EQ(partly.count(0), HazardTable().count(0));
+}
+
+TEST(HazardFile, IsRefusedInOneLineThatNamesTheKey) {
+  const std::pair<const char*, const char*> kFaults[] = {
+      {"{", "not valid JSON"},
+      {"[]", "must be an object"},
+      {R"({"context": {}})", "did you mean 'contexts'"},
+      {R"({"contexts": {"unknown_floor": {}}})", "unknown_floor"},
+      {R"({"contexts": {"free_frontier": {"hits": 1}}})", "free_frontier.metres"},
+      {R"({"contexts": {"free_frontier": {"hits": -1, "metres": 1}}})", "free_frontier.hits"},
+      {R"({"contexts": {"free_frontier": {"hits": "1", "metres": 1}}})", "must be a number"},
+      {R"({"floor_map_m": null})", "floor_map_m"},
+  };
+  for (const auto& [text, named] : kFaults) {
+    const std::string message =
+        message_of<InputError>([&, text = text] { parse_hazards(text, "h.json"); });
+    EXPECT_NE(message.find(named), std::string::npos) << message;
+    EXPECT_EQ(message.find("h.json"), 0U) << message;
+  }
 }
 
 }  // namespace

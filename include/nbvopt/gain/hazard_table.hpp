@@ -48,7 +48,7 @@ class HazardTable {
     return kUnknownContexts + (beside_surface ? 1 : 0);
   }
 
-  /// Nothing was learnt: one hit in two metres of unknown space, none in free voxels. Heights count
+  /// What drives through four worlds taught, with the weight of two metres a context. Heights count
   /// from `floor_map_m`, the z of the floor in the map.
   explicit HazardTable(double floor_map_m = 0.0);
 
@@ -68,6 +68,9 @@ class HazardTable {
     counts_[context].hits += count.hits;
     counts_[context].metres += count.metres;
   }
+
+  /// Forgets the context's prior and all that was added.
+  void set(std::size_t context, const HazardCount& count) { counts_[context] = count; }
 
   double floor_map_m() const { return floor_map_m_; }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/camera_mode.hpp"
@@ -25,7 +26,9 @@ struct EpisodeOptions {
   /// that takes no time, and the same episode gives the same map on every machine.
   bool charge_computing = false;
   double range_noise_m = 0.0;  ///< standard deviation
-  std::uint64_t seed = 1;      ///< of noise, and with the capture's number of what modes draw
+  /// What an expected gain begins with; none: nothing is learnt, the floor is that of the start.
+  std::optional<HazardTable> hazards;
+  std::uint64_t seed = 1;  ///< of noise, and with the capture's number of what modes draw
 
   /// Throws InputError that names the first bad value: a motion time or rate that is not positive,
   /// joints beyond their limits, a bad robot or noise.
@@ -62,6 +65,7 @@ struct EpisodeSummary {
   std::uint64_t voxels = 0;
   double information = 0.0;
   PredictionRecord prediction;
+  HazardTable hazards = HazardTable();  ///< learnt, where the gain is expected
 };
 
 /// Runs an episode and grows the map, which the caller keeps whatever happens. Calls `observe`

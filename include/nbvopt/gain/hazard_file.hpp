@@ -1,0 +1,30 @@
+// Hazards as a file, so that what one drive has taught is there for the next.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nbvopt/gain/hazard_table.hpp"
+
+namespace nbvopt {
+
+/// The contexts of HazardTable by name, in their order: such as
+/// "unknown_floor_entry_beside_surface".
+std::vector<std::string> hazard_context_names();
+
+/// The table as JSON: `floor_map_m`, and in `contexts` hits and metres by name.
+std::string hazards_json(const HazardTable& hazards);
+
+/// Writes that atomically. Throws InputError that names the file when it cannot be written.
+void write_hazards(const HazardTable& hazards, const std::filesystem::path& path);
+
+/// Reads such a file; contexts that it leaves out keep what HazardTable has. Throws InputError that
+/// names file and key: no JSON, an unknown key, hits or metres that are no numbers, negative, or
+/// without metres.
+HazardTable read_hazards(const std::filesystem::path& path);
+
+/// The same from text; `name` stands for the file in messages.
+HazardTable parse_hazards(const std::string& json, const std::string& name);
+
+}  // namespace nbvopt
