@@ -39,4 +39,10 @@ void append_mesh(const TriangleMesh& mesh_part, const Eigen::Affine3d& T_whole_p
   }
 }
 
+TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors) {
+  TriangleMesh stretched;
+  append_mesh(mesh, Eigen::Affine3d(Eigen::Scaling(factors)), stretched);
+  return stretched;
+}
+
 }  // namespace nbvopt

@@ -13,4 +13,7 @@ namespace nbvopt {
 void append_mesh(const TriangleMesh& mesh_part, const Eigen::Affine3d& T_whole_part,
                  TriangleMesh& mesh_whole);
 
+/// A mesh stretched along its axes, as append_mesh() puts it.
+TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors);
+
 }  // namespace nbvopt

@@ -16,13 +16,6 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 constexpr int kSides = 64;
 constexpr int kArcSteps = kSides / 4;  // of a profile's quarter circle
 
-/// A mesh stretched along its axes.
-TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors) {
-  TriangleMesh stretched;
-  append_mesh(mesh, Eigen::Affine3d(Eigen::Scaling(factors)), stretched);
-  return stretched;
-}
-
 /// Turns a profile of points (radius, z), from the lower pole to the upper one, about z.
 TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile_m) {
   TriangleMesh mesh;

@@ -19,12 +19,6 @@ const Eigen::Vector3d kOnes = Eigen::Vector3d::Ones();
 constexpr double kRadius_m = 0.5;
 constexpr double kLength_m = 1.0;
 
-TriangleMesh scaled(const TriangleMesh& mesh, const Eigen::Vector3d& factors) {
-  TriangleMesh stretched;
-  append_mesh(mesh, Eigen::Affine3d(Eigen::Scaling(factors)), stretched);
-  return stretched;
-}
-
 TriangleMesh polyline_mesh(const SdfElement& geometry) {
   const SdfElement* first = geometry.FirstChildElement("polyline");
   std::vector<std::vector<Eigen::Vector2d>> outlines_m;
