@@ -1,6 +1,7 @@
 #include "cli/options/arguments.hpp"
 
-#include <CLI/Option.hpp>
+// Whole, since the parts that others include leave functions of CLI11 without a home.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>

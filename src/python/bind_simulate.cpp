@@ -79,6 +79,7 @@ std::unique_ptr<Episode> simulate(
                      .capture_hz = capture_hz,
                      .charge_computing = charge_computing,
                      .range_noise_m = range_noise_m,
+                     .hazards = {},
                      .seed = seed_from(seed)};
   options.world = name_of(world_argument);
   Simulation simulation(options);

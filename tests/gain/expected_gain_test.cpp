@@ -167,7 +167,7 @@ TEST_P(ExpectedGain, IsTheSameWithEveryInstructionSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Levels, ExpectedGain, ::testing::ValuesIn(supported_simd_levels()),
-                         [](const auto& info) { return std::string(to_string(info.param)); });
+                         [](const auto& test) { return std::string(to_string(test.param)); });
 
 TEST(ExpectedGainPerVoxel, CountsAVoxelWithItsBestRay) {
   SensorOptions sensor = one_ray();
