@@ -19,10 +19,10 @@ const Eigen::Vector3d kOnes = Eigen::Vector3d::Ones();
 constexpr double kRadius_m = 0.5;
 constexpr double kLength_m = 1.0;
 
-TriangleMesh polyline_mesh(const SdfElement& geometry) {
-  const SdfElement* first = geometry.FirstChildElement("polyline");
+/// Of this outline and those beside it.
+TriangleMesh polyline_mesh(const SdfElement& first) {
   std::vector<std::vector<Eigen::Vector2d>> outlines_m;
-  for (const SdfElement* polyline = first; polyline != nullptr;
+  for (const SdfElement* polyline = &first; polyline != nullptr;
        polyline = polyline->NextSiblingElement("polyline")) {
     std::vector<Eigen::Vector2d>& outline_m = outlines_m.emplace_back();
     for (const SdfElement* point = polyline->FirstChildElement("point"); point != nullptr;
@@ -30,7 +30,7 @@ TriangleMesh polyline_mesh(const SdfElement& geometry) {
       outline_m.push_back(point_of(*point));
     }
   }
-  return extruded_mesh(outlines_m, number_of(*first, "height", 1.0));
+  return extruded_mesh(outlines_m, number_of(first, "height", 1.0));
 }
 
 TriangleMesh plane_of(const SdfElement& plane) {
@@ -83,7 +83,7 @@ SdfShape SdfGeometryReader::shape_of(const SdfElement& geometry, const std::file
   } else if (is_named(*element, "heightmap")) {
     shape.mesh = heightmap(*element, file, model);
   } else if (is_named(*element, "polyline")) {
-    shape.mesh = polyline_mesh(geometry);
+    shape.mesh = polyline_mesh(*element);
   } else {
     log_.left_out("model '" + model + "': a shape of type '" + element->Name() +
                   "' is left out, use a mesh instead");
