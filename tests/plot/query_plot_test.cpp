@@ -10,6 +10,7 @@
 #include "plot/axis.hpp"
 #include "plot/canvas.hpp"
 #include "plot/style.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nbvopt {
 namespace {
@@ -66,10 +67,7 @@ TEST(LogTicks, AreCloserWithinADecade) {
 /// A robot that stays where it is, in a map of nothing or of one occupied voxel.
 class Plot : public testing::Test {
  protected:
-  Plot() : path_(testing::TempDir() + "/plot_test.png") {
-    request_.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
-  }
-  ~Plot() override { std::filesystem::remove(path_); }
+  Plot() { request_.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4}; }
 
   void write(const UncertaintyMap& map, const std::filesystem::path& path) {
     const ViewPlanner planner(VoxelGrid::whole(map), Robot{});
@@ -88,7 +86,8 @@ class Plot : public testing::Test {
     return bytes.str();
   }
 
-  std::filesystem::path path_;
+  test::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_ / "plot.png";
   PlanRequest request_;
   PlanResult result_;
 };

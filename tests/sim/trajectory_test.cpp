@@ -10,14 +10,17 @@
 #include <string>
 
 #include "nbvopt/core/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nbvopt {
 namespace {
 
 using testing::HasSubstr;
 
+/// A file of this process, since tests run side by side.
 std::filesystem::path file(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / ("trajectory_test_" + name + ".csv");
+  static const test::TemporaryFolder folder;
+  return folder / (name + ".csv");
 }
 
 /// What reading a file of this text complains about.
