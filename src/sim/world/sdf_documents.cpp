@@ -68,6 +68,7 @@ fs::path file_in(const fs::path& folder) {
 /// What a file that holds no model holds instead.
 std::string instead_of_model(const SdfXml& document) {
   if (is_named(*document.root(), "robot")) return "a URDF: convert it with `gz sdf -p FILE`";
+  if (document.is_too_old()) return "SDF 1.0: convert it with `gz sdf -p FILE`";
   if (document.sdf() == nullptr) return "neither a world nor a model";
   const SdfElement* first = document.sdf()->FirstChildElement();
   return first == nullptr ? "nothing" : std::string("a <") + first->Name() + ">";
@@ -79,8 +80,8 @@ const SdfElement& SdfDocuments::parse(const std::string& text, const fs::path& f
   const auto [document, is_new] = documents_.try_emplace(file, text, file.string());
   const SdfElement* sdf = document->second.sdf();
   if (sdf == nullptr) {
-    throw InputError(file.string() + ": cannot be read as SDF: there is " +
-                     instead_of_model(document->second) + " in it");
+    throw InputError(file.string() + ": cannot be read as SDF: it holds " +
+                     instead_of_model(document->second));
   }
   return *sdf;
 }

@@ -88,8 +88,11 @@ SdfXml::SdfXml(const std::string& text, const std::string& file)
 }
 
 const SdfElement* SdfXml::sdf() const {
-  return is_named(*root(), "sdf") || is_named(*root(), "gazebo") ? root() : nullptr;
+  const bool is_sdf = is_named(*root(), "sdf") || is_named(*root(), "gazebo");
+  return is_sdf && !is_too_old() ? root() : nullptr;
 }
+
+bool SdfXml::is_too_old() const { return attribute_of(*root(), "version") == "1.0"; }
 
 bool is_named(const SdfElement& element, const char* name) {
   return std::string_view(element.Name()) == name;

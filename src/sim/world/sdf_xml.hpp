@@ -17,8 +17,12 @@ class SdfXml {
   /// Throws InputError that names the file, the line and the fault.
   SdfXml(const std::string& text, const std::string& file);
 
-  /// <sdf>, or <gazebo> as it was called before SDF 1.3; null when the root is something else.
+  /// <sdf>, or <gazebo> as it was called in SDF 1.2; null when the root is something else, or of
+  /// SDF 1.0, which has poses and sizes in attributes.
   const SdfElement* sdf() const;
+
+  /// Whether it is of SDF 1.0.
+  bool is_too_old() const;
 
   /// The root, whatever it is.
   const SdfElement* root() const { return document_->RootElement(); }

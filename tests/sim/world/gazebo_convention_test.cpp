@@ -126,6 +126,15 @@ TEST_F(GazeboConvention, RootsOfOlderVersions) {
   EXPECT_EQ(read_world(path, {}).mesh.triangles.size(), 12U);
 }
 
+TEST_F(GazeboConvention, TheOldestRootIsRefusedNotReadWrongly) {
+  const auto path =
+      folder_.add_file("worlds/old.world",
+                       "<gazebo version='1.0'><world name='w'><model name='m'><origin pose='1 0 "
+                       "0 0 0 0'/><link name='l'/></model></world></gazebo>");
+  EXPECT_THAT(message_of<InputError>([&] { read_world(path, {}); }),
+              HasSubstr("SDF 1.0: convert it"));
+}
+
 TEST_F(GazeboConvention, TheNewestOfAModelsFilesCounts) {
   folder_.add_file("models/m/model.config",
                    "<model><name>m</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>"
