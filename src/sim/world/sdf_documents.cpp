@@ -43,7 +43,7 @@ std::pair<int, int> version_of(const SdfElement& sdf) {
 /// The file of a model's folder that its model.config names for the newest version of SDF;
 /// model.sdf where that does not say.
 fs::path file_in(const fs::path& folder) {
-  const fs::path otherwise = folder / "model.sdf";
+  fs::path otherwise = folder / "model.sdf";
   std::error_code ignored;
   for (const char* name : {"model.config", "manifest.xml"}) {
     if (!fs::exists(folder / name, ignored)) continue;
@@ -127,7 +127,7 @@ std::optional<SdfModel> SdfDocuments::included(const SdfElement& include, const 
 }
 
 std::optional<fs::path> SdfDocuments::file_of(const std::string& uri, const fs::path& file) {
-  const std::optional<fs::path> found = model_paths_.find(uri, file.parent_path());
+  std::optional<fs::path> found = model_paths_.find(uri, file.parent_path());
   if (!found) return std::nullopt;
   std::error_code ignored;
   if (!fs::is_directory(*found, ignored)) return found;
