@@ -47,6 +47,7 @@ class ViewPlanner::Impl {
   InsertResult insert(const Scan& scan, const Transform& T_map_sensor) {
     if (!map_) throw UsageError("a planner on one version of a grid has no map to insert into");
     if (robot_.sensor.gain == GainKind::expected) {
+      const std::scoped_lock lock(learning_mutex_);  // of two scans at once, each teaches
       HazardTable hazards = this->hazards();
       learn_hazards(*map_->grid(), scan, T_map_sensor, robot_.sensor, hazards);
       InsertResult result = map_->insert(scan, T_map_sensor, robot_.sensor);
@@ -87,6 +88,7 @@ class ViewPlanner::Impl {
   std::string evaluator_;
   std::shared_ptr<SharedMap> map_;  ///< shared with other planners; null: the grid is all there is
   std::shared_ptr<const VoxelGrid> grid_;  ///< where there is no map
+  std::mutex learning_mutex_;              ///< from reading the hazards to writing them
   mutable std::mutex mutex_;               ///< of what follows
   HazardTable hazards_;
   mutable std::shared_ptr<const Planner> newest_;  ///< shared with the calls that use it
