@@ -15,9 +15,8 @@ FieldValue field_value(const Json& value, const std::string& field) {
 }  // namespace
 
 std::vector<FieldSetting> settings_of(const Json& object, const std::string& block) {
-  if (!object.is_object()) throw InputError(block + " must be an object {...}");
   std::vector<FieldSetting> result;
-  for (const auto& [key, value] : object.items()) {
+  for (const auto& [key, value] : object_in(object, block).items()) {
     result.push_back({key, field_value(value, block + "." + key)});
   }
   return result;

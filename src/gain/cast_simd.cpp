@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gain/ray_batches-inl.hpp"
 #include "gain/ray_lanes-inl.hpp"
 #include "gain/ray_walk.hpp"
 
@@ -22,27 +23,10 @@ CasterKernel kernel() { return scalar_kernel(); }
 /// A batch of rays on their way to what they hit.
 class Batch : public HitLanes {
  public:
-  HWY_INLINE Batch(const RayWalk& walk, const RayHits& hits, std::size_t first)
-      : HitLanes(walk, hits, first) {}
-
-  /// Marks the rays that an occupied voxel, left before range_min, blocks.
-  HWY_INLINE void walk_near() {
-    start_at(hn::Zero(df));
-    while (is_active()) {
-      const VecI code = gather_codes();
-      const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
-      // Unknown voxels there are passed one by one.
-      const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
-      const VecF radius = hn::IfThenElseZero(is_free, leap_radius_of(code));
-      const MaskF before_near = leap_where(active_, radius, near_, occupied);
-      blocked_ = hn::Or(blocked_, hn::And(before_near, occupied));
-      active_ = hn::AndNot(occupied, before_near);
-    }
-    active_ = hn::Not(blocked_);
-  }
-
   /// Starts at range_min, or farther where all before is known to be free.
-  HWY_INLINE void start_beyond(float free_up_to) {
+  HWY_INLINE Batch(const RayWalk& walk, const RayHits& hits, std::size_t first, float free_up_to)
+      : HitLanes(walk, hits, first) {
+    if (walk.walk_near) walk_near();
     start_at(hn::Max(near_, hn::Set(df, free_up_to)));
   }
 
@@ -59,6 +43,22 @@ class Batch : public HitLanes {
   }
 
  private:
+  /// Marks the rays that an occupied voxel, left before range_min, blocks.
+  HWY_INLINE void walk_near() {
+    start_at(hn::Zero(df));
+    while (is_active()) {
+      const VecI code = gather_codes();
+      const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
+      // Unknown voxels there are passed one by one.
+      const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
+      const VecF radius = hn::IfThenElseZero(is_free, leap_radius_of(code));
+      const MaskF before_near = leap_where(active_, radius, near_, occupied);
+      blocked_ = hn::Or(blocked_, hn::And(before_near, occupied));
+      active_ = hn::AndNot(occupied, before_near);
+    }
+    active_ = hn::Not(blocked_);
+  }
+
   /// Of the `candidates`, those that leave their cube before `end` are returned, and, but for the
   /// `frozen`, leap behind its surface.
   HWY_INLINE MaskF leap_where(MaskF candidates, VecF radius, VecF end, MaskF frozen) {
@@ -70,43 +70,14 @@ class Batch : public HitLanes {
 };
 
 void walk_rays(const RayWalk& walk, RayHits& hits) {
-  const std::size_t lanes = hn::Lanes(df);
-  const std::size_t n = walk.rays->size();
-  if (n < lanes) {
+  if (walk.rays->size() < hn::Lanes(df)) {
     scalar_kernel().walk(walk, hits);
     return;
   }
-  const std::size_t batches = (n + lanes - 1) / lanes;
-  const auto first_ray = [&](std::size_t batch) {
-    return std::min(batch * lanes, n - lanes);  // the last batch may overlap
-  };
-  ConeGroup cones;
-  for (std::size_t group = 0; group < batches; group += lanes) {
-    const std::size_t group_size = std::min(lanes, batches - group);
-    for (std::size_t c = 0; c < lanes; ++c) {
-      cones.set(c, walk, hits, first_ray(group + std::min(c, group_size - 1)), false);
-    }
-    alignas(64) std::array<float, kMaxLanes> free_up_to;
-    hn::Store(ConeLanes(walk, cones, 0.0F).march(), df, free_up_to.data());
-    for (std::size_t c = 0; c < group_size; c += 2) {
-      // Two batches side by side: one computes while the other waits for memory.
-      const std::size_t d = std::min(c + 1, group_size - 1);
-      Batch first(walk, hits, first_ray(group + c));
-      Batch second(walk, hits, first_ray(group + d));
-      if (walk.walk_near) {
-        first.walk_near();
-        second.walk_near();
-      }
-      first.start_beyond(free_up_to[c]);
-      second.start_beyond(free_up_to[d]);
-      while (first.is_active() || second.is_active()) {
-        first.step();
-        second.step();
-      }
-      first.store(hits);
-      second.store(hits);
-    }
-  }
+  const auto make_batch = [&](std::size_t first, float free_up_to)
+                              HWY_ATTR { return Batch(walk, hits, first, free_up_to); };
+  const auto store = [&](const Batch& batch) HWY_ATTR { batch.store(hits); };
+  walk_batches(walk, hits, {.from_origin = false, .margin = 0.0F}, make_batch, store);
 }
 
 RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
@@ -159,10 +130,8 @@ HWY_EXPORT(kernel);
 std::int64_t simd_kernel_targets() { return HWY_TARGETS; }
 
 CasterKernel simd_kernel(std::int64_t targets) {
-  // Asking the processor takes microseconds on a virtual machine.
-  static const std::int64_t supported = hwy::SupportedTargets();
   hwy::ChosenTarget chosen;
-  chosen.Update(targets == 0 ? supported : targets & supported);
+  chosen.Update(supported_targets(targets));
   return HWY_DISPATCH_TABLE(kernel)[chosen.GetIndex()]();
 }
 

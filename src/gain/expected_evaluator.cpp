@@ -2,6 +2,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gain/angle_part.hpp"
 #include "gain/passage_walk.hpp"
 #include "gain/ray_passages.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
@@ -18,14 +19,8 @@ class ExpectedEvaluator final : public ViewEvaluator {
         camera_(camera),
         uncertainty_(camera.options()),
         passage_{hazards, uncertainty_.focal_distance_m()},
-        level_(level) {
-    const CameraRays& rays = camera_.rays();
-    angle_part_.reserve(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      angle_part_.push_back(uncertainty_.angle_weight() *
-                            uncertainty_.angle_uncertainty(rays.direction(i)));
-    }
-  }
+        angle_part_(detail::angle_part(uncertainty_, camera.rays())),
+        level_(level) {}
 
   std::string name() const override { return "exact"; }
 
@@ -33,7 +28,8 @@ class ExpectedEvaluator final : public ViewEvaluator {
     const SensorOptions& sensor = camera_.options();
     const RayBundle rays = make_bundle(camera_.rays(), T_map_sensor, sensor.near_blocking);
     thread_local detail::RayPassages passages;
-    detail::pass_rays(*grid_, rays, sensor.occupied_uncertainty, passage_, passages, level_);
+    const detail::RayWalk walk =
+        detail::pass_rays(*grid_, rays, sensor.occupied_uncertainty, passage_, passages, level_);
     ViewGain view;
     double unknown_gain = 0.0, occupied_gain = 0.0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -46,7 +42,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
     }
     view.free_rays = static_cast<int>(rays.size()) - view.unknown_rays - view.occupied_rays;
     if (sensor.counting == Counting::per_voxel) {
-      count_voxels_once(rays, passages.end, unknown_gain, occupied_gain);
+      count_voxels_once(walk, passages.end, unknown_gain, occupied_gain);
     }
     view.unknown_gain = unknown_gain;
     view.occupied_gain = occupied_gain;
@@ -67,7 +63,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
   }
 
   /// Equation (13) over distinct voxels: each counts with the ray that is expected to bring most.
-  void count_voxels_once(const RayBundle& rays, const RayHits& end, double& unknown_gain,
+  void count_voxels_once(const detail::RayWalk& walk, const RayHits& end, double& unknown_gain,
                          double& occupied_gain) const {
     thread_local std::unordered_map<std::uint64_t, double> hidden, seen;
     hidden.clear();
@@ -79,10 +75,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
       sum += gain - best;
       best = gain;
     };
-    RayHits directions = end;
-    const detail::RayWalk walk =
-        detail::make_walk(*grid_, rays, camera_.options().occupied_uncertainty,
-                          detail::scalar_kernel().rotate_and_bound(rays, directions));
+    const RayBundle& rays = *walk.rays;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (end.kind[i] == HitKind::blocked) continue;
       detail::ScalarRay ray(walk, {end.direction_x[i], end.direction_y[i], end.direction_z[i]});

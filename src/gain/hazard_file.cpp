@@ -1,7 +1,6 @@
 #include "nbvopt/gain/hazard_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
@@ -11,16 +10,6 @@
 
 namespace nbvopt {
 namespace {
-
-const Json& object_in(const Json& json, const std::string& where) {
-  if (!json.is_object()) throw InputError(where + " must be an object {...}");
-  return json;
-}
-
-double number_in(const Json& json, const std::string& name) {
-  if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
-  throw InputError(name + " must be a number");
-}
 
 HazardCount count_in(const Json& json, const std::string& where) {
   HazardCount count;
@@ -69,12 +58,7 @@ HazardTable read_hazards(const std::filesystem::path& path) {
 }
 
 HazardTable parse_hazards(const std::string& text, const std::string& name) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception&) {
-    throw InputError(name + ": not valid JSON");
-  }
+  const Json json = parse_json(text, name);
   double floor_map_m = 0.0;
   const Json* contexts = nullptr;
   KeyCheck keys({"floor_map_m", "contexts"});

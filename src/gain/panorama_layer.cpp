@@ -10,6 +10,7 @@
 
 #include "gain/passage_nodes.hpp"
 #include "gain/patch_culling.hpp"
+#include "nbvopt/sensor/uncertainty_model.hpp"
 
 namespace nbvopt::detail {
 namespace {
@@ -27,7 +28,7 @@ bool may_gain(const LayerCaster& caster, double u_old, double distance_m) {
   constexpr double kRounding = 0.01;  // of the rounded-off corners in the sum
   const double d_focal =
       std::max(0.0, std::abs(distance_m - caster.focal_distance_m) - caster.farthest_view_m);
-  const double u_distance = 1.0 - 2.0 / (1.0 + std::exp(d_focal));  // Equation (2)
+  const double u_distance = UncertaintyModel::focal_uncertainty(d_focal);
   return u_old > caster.weight_distance * u_distance - kRounding;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "gain/angle_part.hpp"
 #include "gain/ray_gains.hpp"
 #include "nbvopt/gain/gain_model.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
@@ -14,12 +15,7 @@ class PaperGain final : public GainModel {
     const UncertaintyModel uncertainty(camera.options());
     model_.distance_weight = uncertainty.distance_weight();
     model_.focal_distance_m = uncertainty.focal_distance_m();
-    const CameraRays& rays = camera.rays();
-    model_.angle_part.reserve(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      model_.angle_part.push_back(uncertainty.angle_weight() *
-                                  uncertainty.angle_uncertainty(rays.direction(i)));
-    }
+    model_.angle_part = detail::angle_part(uncertainty, camera.rays());
   }
 
   std::string name() const override { return "paper"; }

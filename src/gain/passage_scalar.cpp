@@ -1,4 +1,5 @@
 #include "gain/passage_walk.hpp"
+#include "nbvopt/sensor/uncertainty_model.hpp"
 
 namespace nbvopt::detail {
 namespace {
@@ -24,7 +25,7 @@ void walk_ray(const RayWalk& walk, const PassageModel& model, std::size_t i, Ray
     const double d_focal = std::abs(s_m - model.focal_distance_m);  // Equation (1)
     meets_unknown |= piece.is_unknown && passed.length_m > 0.0;
     probability += p;
-    u_distance += p * (1.0 - 2.0 / (1.0 + std::exp(d_focal)));  // Equation (2)
+    u_distance += p * UncertaintyModel::focal_uncertainty(d_focal);
     moment1_m += p * s_m;
     moment2_m2 += p * s_m * s_m;
     moment3_m3 += p * s_m * s_m * s_m;

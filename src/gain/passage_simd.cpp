@@ -6,6 +6,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include "gain/ray_batches-inl.hpp"
 #include "gain/ray_lanes-inl.hpp"
 #include "gain/ray_passages.hpp"
 
@@ -54,11 +55,7 @@ class PassageBatch : public HitLanes {
   HWY_INLINE PassageBatch(const RayWalk& walk, const LatticeModel& model, const RayHits& hits,
                           std::size_t first, float free_up_to)
       : HitLanes(walk, hits, first), model_(model) {
-    const TagD d;
-    const auto down =
-        hn::Combine(df, hn::DemoteTo(half_f, hn::LoadU(d, &hits.direction_z[first + hn::Lanes(d)])),
-                    hn::DemoteTo(half_f, hn::LoadU(d, &hits.direction_z[first])));
-    climb_ = down;
+    climb_ = load_demoted(&hits.direction_z[first]);
     begin_ = hn::Set(df, free_up_to);
     start_at(begin_);
     transmittance_ = hn::Set(df, 1.0F);
@@ -215,38 +212,16 @@ class PassageBatch : public HitLanes {
 };
 
 void walk_passages(const RayWalk& walk, const PassageModel& passage_model, RayPassages& passages) {
-  const std::size_t lanes = hn::Lanes(df);
-  const std::size_t n = walk.rays->size();
-  if (n < lanes) {
+  if (walk.rays->size() < hn::Lanes(df)) {
     scalar_passage_kernel().walk(walk, passage_model, passages);
     return;
   }
   const LatticeModel model(walk, passage_model);
-  const std::size_t batches = (n + lanes - 1) / lanes;
-  const auto first_ray = [&](std::size_t batch) {
-    return std::min(batch * lanes, n - lanes);  // the last batch may overlap
+  const auto make_batch = [&](std::size_t first, float free_up_to) HWY_ATTR {
+    return PassageBatch(walk, model, passages.end, first, free_up_to);
   };
-  ConeGroup cones;
-  for (std::size_t group = 0; group < batches; group += lanes) {
-    const std::size_t group_size = std::min(lanes, batches - group);
-    for (std::size_t c = 0; c < lanes; ++c) {
-      cones.set(c, walk, passages.end, first_ray(group + std::min(c, group_size - 1)), true);
-    }
-    alignas(64) std::array<float, kMaxLanes> free_up_to;
-    hn::Store(ConeLanes(walk, cones, kEdgeMargin).march(), df, free_up_to.data());
-    for (std::size_t c = 0; c < group_size; c += 2) {
-      // Two batches side by side: one computes while the other waits for memory.
-      const std::size_t d = std::min(c + 1, group_size - 1);
-      PassageBatch first(walk, model, passages.end, first_ray(group + c), free_up_to[c]);
-      PassageBatch second(walk, model, passages.end, first_ray(group + d), free_up_to[d]);
-      while (first.is_active() || second.is_active()) {
-        first.step();
-        second.step();
-      }
-      first.store_all(passages);
-      second.store_all(passages);
-    }
-  }
+  const auto store = [&](PassageBatch& batch) HWY_ATTR { batch.store_all(passages); };
+  walk_batches(walk, passages.end, {.from_origin = true, .margin = kEdgeMargin}, make_batch, store);
 }
 
 RayBounds passage_bounds(const RayBundle& rays, RayHits& hits) {
@@ -265,9 +240,8 @@ namespace nbvopt::detail {
 HWY_EXPORT(passage_kernel);
 
 PassageKernel simd_passage_kernel(std::int64_t targets) {
-  static const std::int64_t supported = hwy::SupportedTargets();
   hwy::ChosenTarget chosen;
-  chosen.Update(targets == 0 ? supported : targets & supported);
+  chosen.Update(supported_targets(targets));
   return HWY_DISPATCH_TABLE(passage_kernel)[chosen.GetIndex()]();
 }
 

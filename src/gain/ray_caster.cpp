@@ -141,6 +141,12 @@ std::int64_t hwy_targets(SimdLevel level) {
   return 0;
 }
 
+std::int64_t supported_targets(std::int64_t targets) {
+  // Asking the processor takes microseconds on a virtual machine.
+  static const std::int64_t supported = hwy::SupportedTargets();
+  return targets == 0 ? supported : targets & supported;
+}
+
 }  // namespace detail
 
 void cast_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,

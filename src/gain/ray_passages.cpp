@@ -13,14 +13,16 @@ void RayPassages::resize(std::size_t n) {
   }
 }
 
-void pass_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
-               const PassageModel& model, RayPassages& passages, SimdLevel level) {
+RayWalk pass_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+                  const PassageModel& model, RayPassages& passages, SimdLevel level) {
   check_camera_pose(rays.T_map_rays, grid.lattice());
   passages.resize(rays.size());
   const PassageKernel kernel = level == SimdLevel::scalar ? scalar_passage_kernel()
                                                           : simd_passage_kernel(hwy_targets(level));
   const RayBounds bounds = kernel.rotate_and_bound(rays, passages.end);
-  kernel.walk(make_walk(grid, rays, occupied_uncertainty, bounds), model, passages);
+  RayWalk walk = make_walk(grid, rays, occupied_uncertainty, bounds);
+  kernel.walk(walk, model, passages);
+  return walk;
 }
 
 }  // namespace nbvopt::detail

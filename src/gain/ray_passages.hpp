@@ -47,8 +47,10 @@ PassageKernel scalar_passage_kernel();
 PassageKernel simd_passage_kernel(std::int64_t targets);
 
 /// Casts every ray of the bundle as cast_rays() does, but through unknown voxels. Blocking by
-/// occupied voxels before range_min is as there. Throws as cast_rays() does.
-void pass_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
-               const PassageModel& model, RayPassages& passages, SimdLevel level = SimdLevel::best);
+/// occupied voxels before range_min is as there. Throws as cast_rays() does. Returns what it walked
+/// on, for those who walk again.
+RayWalk pass_rays(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
+                  const PassageModel& model, RayPassages& passages,
+                  SimdLevel level = SimdLevel::best);
 
 }  // namespace nbvopt::detail

@@ -55,6 +55,8 @@ RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_
 
 /// The instruction sets that Highway may use at a level, as its bits; 0: any.
 std::int64_t hwy_targets(SimdLevel level);
+/// Those of the targets that this machine has; 0: all that it has.
+std::int64_t supported_targets(std::int64_t targets);
 
 /// An implementation of the caster. Walking is mirrored: along each axis that a ray goes down,
 /// coordinates are negated and a voxel v becomes ~v, so that every ray goes up.

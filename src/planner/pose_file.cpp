@@ -13,29 +13,14 @@
 namespace nbvopt {
 namespace {
 
-Json parse_json(const std::string& text, const std::string& name) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(name + ": line " + std::to_string(line) + ": not valid JSON");
-  } catch (const Json::exception&) {
-    throw InputError(name + ": a number is too large");
-  }
-}
-
 const Json& member(const Json& object, const char* key, const std::string& where) {
-  if (!object.is_object()) throw InputError(where + " must be an object {...}");
-  const auto found = object.find(key);
+  const auto found = object_in(object, where).find(key);
   if (found == object.end()) throw InputError(where + ": '" + key + "' is missing");
   return *found;
 }
 
 double number(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_number()) throw InputError(where + ": '" + key + "' must be a number");
-  return value.get<double>();
+  return number_in(member(object, key, where), where + ": '" + key + "'");
 }
 
 template <std::size_t Size>
@@ -64,8 +49,7 @@ Transform pose_of_base(const Json& a_case, const Mast& mast, const std::string& 
 }
 
 Transform pose(const Json& a_case, const Mast& mast, const std::string& where) {
-  if (!a_case.is_object()) throw InputError(where + " must be an object {...}");
-  if (a_case.contains("position") || a_case.contains("orientation_xyzw")) {
+  if (object_in(a_case, where).contains("position") || a_case.contains("orientation_xyzw")) {
     const auto position_m = numbers<3>(a_case, "position", where);
     const auto orientation_xyzw = numbers<4>(a_case, "orientation_xyzw", where);
     try {

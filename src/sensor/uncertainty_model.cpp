@@ -33,8 +33,11 @@ UncertaintyModel::UncertaintyModel(const SensorOptions& options)
 }
 
 double UncertaintyModel::distance_uncertainty(double distance_m) const {
-  const double d_focal_m = std::abs(distance_m - focal_distance_m_);  // Equation (1)
-  return 1.0 - 2.0 / (1.0 + std::exp(d_focal_m));                     // Equation (2)
+  return focal_uncertainty(std::abs(distance_m - focal_distance_m_));  // Equation (1)
+}
+
+double UncertaintyModel::focal_uncertainty(double d_focal_m) {
+  return 1.0 - 2.0 / (1.0 + std::exp(d_focal_m));  // Equation (2)
 }
 
 double UncertaintyModel::angle_uncertainty(const Eigen::Vector3d& direction_sensor) const {

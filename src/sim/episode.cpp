@@ -68,7 +68,8 @@ class EpisodeRun {
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
-    hazards_ = options.hazards.value_or(HazardTable(trajectory.T_map_base(0.0).translation().z()));
+    summary_.hazards =
+        options.hazards.value_or(HazardTable(trajectory.T_map_base(0.0).translation().z()));
   }
 
   /// The loop of Fig. 4: capture, insert, plan, move, capture.
@@ -83,7 +84,6 @@ class EpisodeRun {
       capture_on_the_way(time_s, next_s);
       time_s = next_s;
     }
-    summary_.hazards = hazards_;
     return summary_;
   }
 
@@ -155,7 +155,7 @@ class EpisodeRun {
     const Scan scan = timed(capture.render_ms, [&] { return camera_.capture(T, capture.frame); });
     if (grid_ && is_expected()) {
       timed(capture.insert_ms,
-            [&] { learn_hazards(*grid_, scan, T, options_.robot.sensor, hazards_); });
+            [&] { learn_hazards(*grid_, scan, T, options_.robot.sensor, summary_.hazards); });
     }
     const InsertResult inserted =
         timed(capture.insert_ms, [&] { return insert_scan(map_, scan, T, options_.robot.sensor); });
@@ -179,7 +179,7 @@ class EpisodeRun {
       next.T_map_base = trajectory_.T_map_base(std::min(next_s, trajectory_.duration_s()));
     }
     return timed(capture.plan_ms, [&] {
-      return mode_.next_view(ViewPlanner(grid_, options_.robot, hazards_), next);
+      return mode_.next_view(ViewPlanner(grid_, options_.robot, summary_.hazards), next);
     });
   }
 
@@ -194,7 +194,6 @@ class EpisodeRun {
   DepthCamera planning_camera_;
   SimulatedCamera camera_;
   std::shared_ptr<const VoxelGrid> grid_;  ///< of the map; null where the mode does not plan
-  HazardTable hazards_;                    ///< learnt from all scans so far
   JointMove move_;                         ///< the latest
   double predicted_gain_ = Capture::kNaN;  ///< of the view that the camera moves to
   EpisodeSummary summary_;

@@ -311,7 +311,8 @@ TEST(HazardFile, KeepsAllThatWasLearnt) {
 
 TEST(HazardFile, IsRefusedInOneLineThatNamesTheKey) {
   const std::pair<const char*, const char*> kFaults[] = {
-      {"{", "not valid JSON"},
+      {"{\n\"contexts\": {]}", "h.json: line 2: not valid JSON"},
+      {R"({"floor_map_m": 1e999})", "a number is too large"},
       {"[]", "must be an object"},
       {R"({"context": {}})", "did you mean 'contexts'"},
       {R"({"contexts": {"unknown_floor": {}}})", "unknown_floor"},

@@ -15,6 +15,9 @@ class UncertaintyModel {
   /// Eq. 2 of a point at this Euclidean distance; in [0, 1).
   double distance_uncertainty(double distance_m) const;
 
+  /// Eq. 2 of a point whose distance differs from the focal distance by this much; in [0, 1).
+  static double focal_uncertainty(double d_focal_m);
+
   /// Eq. 7 of a point in this direction, which need not have unit length; in [0, 1].
   double angle_uncertainty(const Eigen::Vector3d& direction_sensor) const;
 
