@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/map_input.hpp"
 #include "cli/options/view_arguments.hpp"
 #include "cli/terminal/output.hpp"
 #include "core/json.hpp"
@@ -57,7 +58,7 @@ void run_evaluate(const EvaluateOptions& options) {
 
   const std::optional<HazardTable> hazards = given_hazards(options.view);
   const Stopwatch loading;
-  UncertaintyMap map = read_map(options.map_file);
+  UncertaintyMap map = read_map_input({.file = options.map_file});
   const double map_load_ms = loading.elapsed_ms();
   check_on_lattice(poses, map.lattice(), options.pose_file);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/map_input.hpp"
 #include "cli/map_output.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/depth_image_arguments.hpp"
@@ -44,7 +45,7 @@ UncertaintyMap map_of(const InsertOptions& options) {
   if (options.new_resolution_m && !exists(options.map_file)) {
     return UncertaintyMap(*options.new_resolution_m);
   }
-  return read_map(options.map_file);
+  return read_map_input({.file = options.map_file});
 }
 
 /// Writes the map; the file that it replaces is kept unless it may be overwritten. The backup, if

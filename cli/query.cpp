@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/ask_server.hpp"
+#include "cli/map_input.hpp"
 #include "cli/options/query_arguments.hpp"
 #include "cli/query_answer.hpp"
 #include "cli/terminal/output.hpp"
@@ -77,7 +78,7 @@ QueryAnswer search_map(const QueryOptions& options) {
 
   const std::optional<HazardTable> hazards = given_hazards(options.view);
   const Stopwatch loading;
-  UncertaintyMap map = read_map(options.map_file);
+  UncertaintyMap map = read_map_input({.file = options.map_file});
   QueryAnswer answer;
   answer.evaluator = options.view.evaluator;
   answer.counting = robot.sensor.counting;

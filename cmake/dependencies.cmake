@@ -6,6 +6,7 @@ find_package(hwy 1.0 REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)
 find_package(PNG 1.6 REQUIRED)
+find_package(ZLIB 1.2 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED CONFIG)
 # Debian's C++ build of NLopt, which has StoGO and AGS; the plain one throws when asked for them.
 find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)

@@ -16,17 +16,23 @@ class ByteReader {
  public:
   explicit ByteReader(std::istream& in) : in_(in), buffer_(kBlockBytes) {}
 
-  /// The next `count` bytes, valid until the next call; nullptr when the stream ends before.
+  /// The next `count` bytes, which are not taken, valid until the next call; nullptr when the
+  /// stream ends before.
+  const char* peek(std::size_t count) {
+    return count > available_ && !refill(count) ? nullptr : next_;
+  }
+
+  /// Whether all bytes were taken.
+  bool at_end() { return peek(1) == nullptr; }
+
+  /// The same, taken.
   const char* take(std::size_t count) {
-    if (count > available_ && !refill(count)) return nullptr;
-    const char* piece = next_;
+    const char* piece = peek(count);
+    if (piece == nullptr) return nullptr;
     next_ += count;
     available_ -= count;
     return piece;
   }
-
-  /// Whether all bytes were taken.
-  bool is_at_end() { return available_ == 0 && !refill(1); }
 
   /// The bytes up to the next newline, which is taken but not returned, or to the stream's end.
   /// None at the end, or when the line has more than `max_length` bytes.

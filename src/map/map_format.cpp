@@ -12,9 +12,10 @@ MapFormat map_format(const std::string& name, const std::filesystem::path& path)
   if (format) return *format;
   if (!name.empty()) {
     throw UsageError("map format '" + name +
-                     "' is not known, it must be uncertainty-ot, bt, colour-ot or ply");
+                     "' is not known, it must be uncertainty-ot, bt, colour-ot, ply or pcd");
   }
-  throw UsageError(path.string() + ": the extension tells no format, end it in .ot, .bt or .ply, " +
+  throw UsageError(path.string() +
+                   ": the extension tells no format, end it in .ot, .bt, .ply or .pcd, " +
                    "or name a format");
 }
 

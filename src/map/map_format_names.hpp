@@ -12,6 +12,7 @@ inline constexpr auto kEnumNames<MapFormat> = std::to_array<EnumName<MapFormat>>
     {MapFormat::bt, "bt"},
     {MapFormat::colour_ot, "colour-ot"},
     {MapFormat::colour_ply, "ply"},
+    {MapFormat::colour_pcd, "pcd"},
 });
 
 }  // namespace nbvopt

@@ -4,8 +4,10 @@
 
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
+#include "map/append_number.hpp"
 #include "map/map_access.hpp"
 #include "map/map_header.hpp"
+#include "map/map_points.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
 #include "nbvopt/map/map_file.hpp"
@@ -15,11 +17,6 @@ namespace nbvopt {
 namespace {
 
 using Node = UncertaintyOcTreeNode;
-
-template <class Number>
-void append(std::string& bytes, const Number& number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(Number));
-}
 
 /// The header as OctoMap writes it, but with the resolution's every digit.
 std::string header(const char* magic, const char* tree_type, std::uint64_t nodes,
@@ -62,7 +59,7 @@ std::string uncertainty_file(const UncertaintyOcTree& tree) {
   });
 }
 
-std::array<std::uint8_t, 3> shown_colour(const UncertaintyOcTree& tree, const Node& node) {
+Colour shown_colour(const UncertaintyOcTree& tree, const Node& node) {
   return tree.isNodeOccupied(&node) ? uncertainty_colour(node.uncertainty()) : kNoColour;
 }
 
@@ -124,34 +121,9 @@ class BinaryWriter {
   std::uint64_t nodes_ = 0;
 };
 
-/// A binary .ply of the occupied voxels' centres.
-std::string ply_file(const UncertaintyMap& map) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                      std::to_string(map.counts().occupied_voxels) +
-                      "\nproperty float x\nproperty float y\nproperty float z\n"
-                      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
-  const UncertaintyOcTree& tree = detail::MapAccess::tree(map);
-  for_each_leaf(tree, [&](const Node& leaf, VoxelKey origin, int depth) {
-    if (!tree.isNodeOccupied(&leaf)) return;
-    const int size = 1 << (UncertaintyOcTree::kDepth - depth);
-    for (int z = origin.z; z < origin.z + size; ++z) {
-      for (int y = origin.y; y < origin.y + size; ++y) {
-        for (int x = origin.x; x < origin.x + size; ++x) {
-          const VoxelKey key{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
-                             static_cast<std::uint16_t>(z)};
-          const Eigen::Vector3f centre_m = map.lattice().centre_m(key).cast<float>();
-          for (float coordinate : centre_m) append(bytes, coordinate);
-          append(bytes, shown_colour(tree, leaf));
-        }
-      }
-    }
-  });
-  return bytes;
-}
-
 }  // namespace
 
-std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
+std::string map_file_bytes(const UncertaintyMap& map, MapFormat format, MapPoints points) {
   switch (format) {
     case MapFormat::uncertainty_ot:
       return uncertainty_file(detail::MapAccess::tree(map));
@@ -160,13 +132,16 @@ std::string map_file_bytes(const UncertaintyMap& map, MapFormat format) {
     case MapFormat::colour_ot:
       return colour_file(detail::MapAccess::tree(map));
     case MapFormat::colour_ply:
-      return ply_file(map);
+      return ply_file(map, points);
+    case MapFormat::colour_pcd:
+      return pcd_file(map, points);
   }
   return {};
 }
 
-void write_map(const UncertaintyMap& map, const std::filesystem::path& path, MapFormat format) {
-  write_file_atomically(path, map_file_bytes(map, format));
+void write_map(const UncertaintyMap& map, const std::filesystem::path& path, MapFormat format,
+               MapPoints points) {
+  write_file_atomically(path, map_file_bytes(map, format, points));
 }
 
 }  // namespace nbvopt

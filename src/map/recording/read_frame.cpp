@@ -59,7 +59,7 @@ Scan read_laser_scan(const std::filesystem::path& file) {
   std::ifstream in = open_input_file(file);
   ByteReader bytes(in);
   Scan scan;
-  while (!bytes.is_at_end()) {
+  while (!bytes.at_end()) {
     const char* point = bytes.take(kPointBytes);
     if (point == nullptr) {
       throw InputError(file.string() + ": the file ends within a point, it is truncated");
