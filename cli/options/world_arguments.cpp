@@ -2,6 +2,7 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <map>
 #include <utility>
 
 #include "cli/terminal/output.hpp"
@@ -9,9 +10,17 @@
 
 namespace nbvopt {
 
+namespace {
+
+const std::map<std::string, double> kUnits_m{
+    {"mm", 0.001}, {"cm", 0.01}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
+
+}  // namespace
+
 void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
   app.add_option("WORLD", arguments.world_file,
-                 "a Gazebo world (.world, .sdf), or a mesh: .ply, .obj, .stl, .dae")
+                 "a Gazebo world (.world, .sdf), or a mesh: .ply, .obj, .stl, .dae, .off, .gltf, "
+                 ".glb (z up; of the last two, y up)")
       ->required();
   app.add_option(
          "--model-path", arguments.model_paths,
@@ -24,6 +33,10 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
       ->capture_default_str();
   app.add_flag("--strict", arguments.is_strict,
                "refuse a world with parts missing instead of warning");
+  app.add_option("--unit", arguments.unit, "of the coordinates of a mesh")
+      ->check(CLI::IsMember(kUnits_m))
+      ->type_name("NAME")
+      ->capture_default_str();
   CLI::Option* cache =
       app.add_option("--cache", arguments.cache_folder,
                      "where to keep the built world [$XDG_CACHE_HOME/nbvopt or ~/.cache/nbvopt]");
@@ -40,6 +53,7 @@ World read_world(const WorldArguments& arguments) {
   }
   options.geometry = enum_value<WorldGeometry>(arguments.geometry).value();
   options.is_strict = arguments.is_strict;
+  options.mesh_unit_m = kUnits_m.at(arguments.unit);
   if (!arguments.cache_folder.empty()) {
     options.cache_folder = arguments.cache_folder;
   } else if (arguments.is_cached) {

@@ -14,6 +14,7 @@ struct WorldArguments {
   std::vector<std::string> model_paths;
   std::string geometry = "visual";
   bool is_strict = false;
+  std::string unit = "m";
   std::string cache_folder;  ///< empty: the user's
   bool is_cached = true;
 };

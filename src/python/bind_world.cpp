@@ -49,10 +49,12 @@ std::optional<std::filesystem::path> cache_folder_from(const Cache& cache) {
 
 SharedWorld make_world(const std::filesystem::path& path,
                        const std::vector<std::filesystem::path>& model_paths,
-                       const std::string& geometry, bool is_strict, const Cache& cache) {
+                       const std::string& geometry, bool is_strict, double mesh_unit_m,
+                       const Cache& cache) {
   return read(path, {.model_paths = model_paths,
                      .geometry = geometry_from(geometry),
                      .is_strict = is_strict,
+                     .mesh_unit_m = mesh_unit_m,
                      .cache_folder = cache_folder_from(cache)});
 }
 
@@ -86,19 +88,22 @@ void bind_world(py::module_& module) {
       .def(
           py::init([](const std::filesystem::path& path,
                       const std::vector<std::filesystem::path>& model_paths,
-                      const std::string& geometry, bool strict, const Cache& cache) {
+                      const std::string& geometry, bool strict, double unit_m, const Cache& cache) {
             return std::const_pointer_cast<ReadyWorld>(
-                make_world(path, model_paths, geometry, strict, cache));
+                make_world(path, model_paths, geometry, strict, unit_m, cache));
           }),
           py::arg("path"), py::kw_only(),
           py::arg("model_paths") = std::vector<std::filesystem::path>{},
-          py::arg("geometry") = "visual", py::arg("strict") = false, py::arg("cache") = true,
-          "Reads a Gazebo world (.world, .sdf) or a mesh (.ply, .obj, .stl, .dae). What is missing "
-          "or left out is a warning of Python's.\n\n"
+          py::arg("geometry") = "visual", py::arg("strict") = false, py::arg("unit_m") = 1.0,
+          py::arg("cache") = true,
+          "Reads a Gazebo world (.world, .sdf) or a mesh (.ply, .obj, .stl, .dae, .off, "
+          ".gltf, .glb; z up, of the last two y up). What is missing or left out is a warning of "
+          "Python's.\n\n"
           "model_paths: folders of models, after the world's own and before those of "
           "Gazebo's environment.\n"
           "geometry: \"visual\" or \"collision\", which shapes of the models to take.\n"
           "strict: refuse a world with parts missing instead of warning.\n"
+          "unit_m: the unit of a mesh's coordinates, m (0.001: millimetres).\n"
           "cache: the folder that keeps the built world; True: the user's, False: none.\n\n"
           "ValueError: the file is missing, no world, or without any geometry.")
       .def_property_readonly(

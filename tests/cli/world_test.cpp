@@ -22,6 +22,15 @@ std::string world_of_box(const std::string& size, const std::string& more = "") 
          size + "</size></box></geometry></visual></link></model>" + more + "</world></sdf>";
 }
 
+TEST(WorldInfo, TakesAMeshAloneInItsUnit) {
+  const TemporaryFolder folder;
+  const std::string mesh =
+      folder.write("a.off", "OFF\n3 1 0\n0 0 0\n0 2500 0\n5000 0 1000\n3 0 1 2\n");
+  const auto info = nbvopt_json({"world", "info", mesh, "--unit", "mm", "--no-cache", "--json"});
+  EXPECT_NEAR(info["extent_m"]["max"][0].get<double>(), 5.0, 1e-6);
+  test::expect_refusal(nbvopt_run({"world", "info", mesh, "--unit", "yard"}), 2, "mm");
+}
+
 TEST(WorldInfo, TellsExtentFloorsTrianglesAndStarts) {
   const auto info = nbvopt_json({"world", "info", office_world(), "--no-cache", "--json"});
   EXPECT_EQ(info["models"], 1);

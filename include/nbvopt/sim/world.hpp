@@ -20,7 +20,8 @@ struct WorldOptions {
   /// the file. Each stands also for `models` in it and beside it, and for the folder above.
   std::vector<std::filesystem::path> model_paths = {};
   WorldGeometry geometry = WorldGeometry::visual;
-  bool is_strict = false;  ///< refuse a world that would load with parts missing
+  bool is_strict = false;    ///< refuse a world that would load with parts missing
+  double mesh_unit_m = 1.0;  ///< of a single mesh's coordinates, m; worlds of Gazebo are in metres
   /// Where built worlds are kept; none: nowhere. A kept world is read again as long as every file
   /// that it was built from is unchanged.
   std::optional<std::filesystem::path> cache_folder = {};
@@ -36,9 +37,11 @@ struct World {
   std::vector<std::string> missing;   ///< those of them that keep a part out of the world
 };
 
-/// Reads a Gazebo world (.world, .sdf) or a single mesh (PLY, OBJ, STL, COLLADA; metres). Throws
-/// InputError that names the file: missing or not readable, not a world, without any geometry;
-/// when strict, the first part that is missing. Nothing is fetched from a network.
+/// Reads a Gazebo world (.world, .sdf) or a single mesh (PLY, OBJ, STL, COLLADA, OFF, glTF).
+/// Coordinates of a single mesh are in the given unit (COLLADA's in its own, times that), z up, of
+/// glTF y up. Throws InputError that names the file: missing or not readable, not a world, without
+/// any geometry, a Gazebo world with another unit than the metre; when strict, the first part that
+/// is missing. Nothing is fetched from a network.
 World read_world(const std::filesystem::path& path, const WorldOptions& options);
 
 /// The folders where Gazebo itself looks for models, as far as they are there: those of

@@ -1,5 +1,6 @@
 #include "sim/world/mesh_file.hpp"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -17,6 +18,20 @@
 namespace nbvopt {
 
 namespace {
+
+/// Tells of the files that are opened.
+class OpenedFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit OpenedFiles(WorldLog& log) : log_(log) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    log_.read(file);
+    return DefaultIOSystem::Open(file, mode);
+  }
+
+ private:
+  WorldLog& log_;
+};
 
 void configure(Assimp::Importer& importer) {
   // Gazebo takes the axes of a file as they are, whatever its up_axis says.
@@ -77,13 +92,15 @@ void centre(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh read_mesh_file(const std::filesystem::path& path, const Submesh& submesh) {
+TriangleMesh read_mesh_file(const std::filesystem::path& path, const Submesh& submesh,
+                            WorldLog& log) {
   open_input_file(path);  // its messages say why a file cannot be read; Assimp's do not
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string() + ": " + what);
   };
   Assimp::Importer importer;
   configure(importer);
+  importer.SetIOHandler(new OpenedFiles(log));  // which the importer owns
   const aiScene* scene = nullptr;
   try {
     scene = importer.ReadFile(

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nbvopt/sim/triangle_mesh.hpp"
+#include "sim/world/world_log.hpp"
 
 namespace nbvopt {
 
@@ -18,9 +19,11 @@ struct Submesh {
 };
 
 /// All triangles of a file, every instance in its place. COLLADA's unit (`meter=`) is applied, its
-/// up axis is not, as in Gazebo. Lines, points and triangles without area are left behind. Throws
-/// InputError that names the file: missing, not readable as a mesh, without any triangle, without
-/// that submesh.
-TriangleMesh read_mesh_file(const std::filesystem::path& path, const Submesh& submesh);
+/// up axis is not, as in Gazebo, nor is glTF's. Lines, points and triangles without area are left
+/// behind. Throws InputError that names the file: missing, not readable as a mesh, without any
+/// triangle, without that submesh. `log` hears of every file that was opened: glTF keeps its
+/// numbers in others.
+TriangleMesh read_mesh_file(const std::filesystem::path& path, const Submesh& submesh,
+                            WorldLog& log);
 
 }  // namespace nbvopt

@@ -133,9 +133,8 @@ TriangleMesh SdfGeometryReader::heightmap(const SdfElement& heightmap,
 const TriangleMesh& SdfGeometryReader::file_mesh(const MeshKey& key, const std::string& model) {
   const auto [found, is_new] = meshes_.try_emplace(key);
   if (!is_new) return found->second;
-  log_.read(key.first);
   try {
-    found->second = read_mesh_file(key.first, key.second);
+    found->second = read_mesh_file(key.first, key.second, log_);
   } catch (const InputError& error) {
     log_.left_out("model '" + model + "': mesh is left out: " + error.what());
   }

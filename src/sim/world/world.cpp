@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/input_file.hpp"
+#include "core/number.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/world/append_mesh.hpp"
@@ -29,11 +32,48 @@ enum class FileKind { sdf, mesh };
 FileKind kind_of(const fs::path& path) {
   const std::string extension = lower_case(path.extension().string());
   constexpr std::array kSdfExtensions{".world", ".sdf"};
-  constexpr std::array kMeshExtensions{".ply", ".obj", ".stl", ".dae"};
+  constexpr std::array kMeshExtensions{".ply", ".obj", ".stl", ".dae", ".off", ".gltf", ".glb"};
   if (std::ranges::count(kSdfExtensions, extension) > 0) return FileKind::sdf;
   if (std::ranges::count(kMeshExtensions, extension) > 0) return FileKind::mesh;
-  throw InputError(path.string() +
-                   ": is neither a world (.world, .sdf) nor a mesh (.ply, .obj, .stl, .dae)");
+  throw InputError(path.string() + ": is neither a world (.world, .sdf) nor a mesh " +
+                   "(.ply, .obj, .stl, .dae, .off, .gltf, .glb)");
+}
+
+double longest_side_m(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex_m : mesh.vertices_m) box.extend(vertex_m);
+  return box.isEmpty() ? 0.0 : static_cast<double>(box.sizes().maxCoeff());
+}
+
+/// A mesh that is a world by itself, in metres, z up. glTF's y axis points up by its specification:
+/// it is turned as in Blender and RViz, but not in Gazebo's worlds, since Gazebo does not.
+TriangleMesh single_mesh(const fs::path& path, const WorldOptions& options, WorldLog& log) {
+  const std::string extension = lower_case(path.extension().string());
+  Eigen::Affine3d T_map_file(Eigen::Scaling(options.mesh_unit_m));
+  if (extension == ".gltf" || extension == ".glb") {
+    T_map_file.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
+  }
+  TriangleMesh mesh;
+  append_mesh(read_mesh_file(path, {}, log), T_map_file, mesh);
+  constexpr double kLong_m = 1000.0;
+  if (const double length_m = longest_side_m(mesh); length_m > kLong_m) {
+    log.remark(path.string() + ": the mesh is " + format_number(std::round(length_m)) +
+               " m long; if its unit is not the metre, say which it is (0.001 m: millimetres)");
+  }
+  return mesh;
+}
+
+/// Models are metres, and say in the world how they are scaled.
+void check_unit(const fs::path& path, double mesh_unit_m) {
+  if (!(mesh_unit_m > 0.0) || !std::isfinite(mesh_unit_m)) {
+    throw InputError("the mesh's unit is " + format_number(mesh_unit_m) +
+                     " m, it must be positive and finite");
+  }
+  if (mesh_unit_m != 1.0 && kind_of(path) == FileKind::sdf) {
+    throw InputError(path.string() +
+                     ": the unit is of single meshes alone; in a Gazebo world, give a mesh its "
+                     "<scale>");
+  }
 }
 
 SdfWorld read_parts(const fs::path& path, const WorldOptions& options, WorldLog& log) {
@@ -42,7 +82,7 @@ SdfWorld read_parts(const fs::path& path, const WorldOptions& options, WorldLog&
     return read_sdf_world(read_text_file(path), path, options, log);
   }
   SdfWorld world;
-  world.parts.push_back({.model = path.stem().string(), .mesh = read_mesh_file(path, {})});
+  world.parts.push_back({.model = path.stem().string(), .mesh = single_mesh(path, options, log)});
   return world;
 }
 
@@ -91,6 +131,7 @@ World cached_world(const fs::path& path, const WorldOptions& options) {
 
 World read_world(const fs::path& path, const WorldOptions& options) {
   open_input_file(path);
+  check_unit(path, options.mesh_unit_m);
   World world = cached_world(path, options);
   if (options.is_strict && !world.missing.empty()) {
     throw InputError(path.string() + ": " + world.missing.front());

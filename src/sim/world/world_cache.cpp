@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/atomic_file.hpp"
+#include "core/number.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/world/byte_archive.hpp"
@@ -100,6 +101,7 @@ WorldCache::WorldCache(const fs::path& folder, const fs::path& world_file,
   key_ = canonical.string();
   key_ += '\n';
   key_ += enum_name(options.geometry);
+  key_ += "\n" + format_number(options.mesh_unit_m);
   for (const fs::path& path : options.model_paths) {
     key_ += "\n" + fs::weakly_canonical(path).string();
   }

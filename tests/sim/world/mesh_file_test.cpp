@@ -67,7 +67,8 @@ std::string node(const std::string& transform, const std::string& url, const std
 TriangleMesh read_text_as(const std::string& name, const std::string& content,
                           const Submesh& submesh = {}) {
   const TemporaryFolder folder;
-  return read_mesh_file(folder.write(name, content), submesh);
+  WorldLog log;
+  return read_mesh_file(folder.write(name, content), submesh, log);
 }
 
 TEST(MeshFile, TakesColladaUnitsFromTheirNumberWhateverTheirName) {
