@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,8 +70,16 @@ void check_positive(const char* option, double value, const char* unit) {
                    ", it must be positive and at most " + format_number(kMost));
 }
 
+void check_map(const ServerOptions& server) {
+  if (!server.map_file.empty() || server.new_resolution_m) return;
+  if (!server.snapshot_file.empty() && std::filesystem::exists(server.snapshot_file)) return;
+  throw UsageError(
+      "there is no map to start with: name a MAP, or give --create M for an empty one");
+}
+
 void run_serve(ServeOptions& options) {
   ServerOptions& server_options = options.server;
+  check_map(server_options);
   check_positive("--snapshot-every", options.snapshot_every_s, " s");
   options.snapshot_every_s = std::max(options.snapshot_every_s, 1e-3);
   check_positive("--max-compute-ms", server_options.limits.max_compute_ms, " ms");
@@ -134,12 +143,9 @@ void add_access(CLI::App& serve, ServerOptions& options) {
                   "of this machine need the certificates below")
       ->type_name("ADDRESS")
       ->capture_default_str();
-  const auto add_pem = [&serve](const char* name, std::string& file, const char* description) {
-    serve.add_option(name, file, description)->type_name("PEM");
-  };
-  add_pem("--tls-cert", options.tls.certificate, "the server's certificate");
-  add_pem("--tls-key", options.tls.key, "its private key");
-  add_pem("--tls-client-ca", options.tls.client_ca, "who signs the certificates of callers");
+  add_pem(serve, "--tls-cert", options.tls.certificate, "the server's certificate");
+  add_pem(serve, "--tls-key", options.tls.key, "its private key");
+  add_pem(serve, "--tls-client-ca", options.tls.client_ca, "who signs the certificates of callers");
 }
 
 }  // namespace

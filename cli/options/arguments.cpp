@@ -84,4 +84,9 @@ CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::int64
       ->default_str(std::to_string(target));
 }
 
+CLI::Option* add_pem(CLI::App& app, const std::string& name, std::filesystem::path& file,
+                     const std::string& description) {
+  return app.add_option(name, file, description)->type_name("PEM");
+}
+
 }  // namespace nbvopt

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -31,5 +32,9 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<do
 /// The same for a whole number from `min` to `max`.
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::int64_t& target,
                               std::int64_t min, std::int64_t max, const std::string& description);
+
+/// Adds an option that takes a file of one end of a secured connection.
+CLI::Option* add_pem(CLI::App& app, const std::string& name, std::filesystem::path& file,
+                     const std::string& description);
 
 }  // namespace nbvopt

@@ -91,12 +91,10 @@ void add_server(CLI::App& query, QueryOptions& options) {
   query.option_defaults()->group("Asking a server (nbvopt serve) that holds map and robot");
   CLI::Option* server =
       query.add_option("--server", options.server, "HOST:PORT or unix:PATH")->type_name("ADDRESS");
-  const auto add_pem = [&](const char* name, std::filesystem::path& file, const char* description) {
-    query.add_option(name, file, description)->type_name("PEM")->needs(server);
-  };
-  add_pem("--tls-ca", options.tls.server_ca, "who signs the server's certificate");
-  add_pem("--tls-cert", options.tls.certificate, "the caller's certificate");
-  add_pem("--tls-key", options.tls.key, "its private key");
+  add_pem(query, "--tls-ca", options.tls.server_ca, "who signs the server's certificate")
+      ->needs(server);
+  add_pem(query, "--tls-cert", options.tls.certificate, "the caller's certificate")->needs(server);
+  add_pem(query, "--tls-key", options.tls.key, "its private key")->needs(server);
   for (const char* ours :
        {"--robot", "--threads", "--evaluator", "--counting", "--gain", "--hazards",
         "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {

@@ -77,7 +77,7 @@ struct PlannerClient::Connection {
     const std::string reason = status.error_code() == grpc::StatusCode::UNAVAILABLE
                                    ? "no server answers there (" + status.error_message() + ")"
                                    : status.error_message();
-    const std::string remedy = is_too_large(status) ? ": the server's --max-message-mib" : "";
+    const std::string remedy = is_too_large(status) ? ": the server's max_message_mib" : "";
     throw ServerError(kind_of(status), address + ": " + reason + remedy);
   }
 

@@ -145,7 +145,7 @@ class Panorama::Impl {
   void patch_gains(const JointPosition& q, Eigen::VectorXd& gains, Eigen::MatrixXd* derivatives) {
     if (counting_ == Counting::per_voxel) {
       throw UsageError(
-          "panorama: the gains of patches add up per ray only, use --counting per_ray");
+          "panorama: the gains of patches add up per ray only, use the counting per_ray");
     }
     const auto patches = static_cast<Eigen::Index>(patch_count());
     gains.setZero(patches);

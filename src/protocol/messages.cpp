@@ -61,7 +61,7 @@ constexpr std::size_t kPointBytes = 3 * sizeof(float);
 void check_points(std::uint64_t points, std::uint64_t max_points) {
   if (points <= max_points) return;
   throw LimitError("the scan has " + std::to_string(points) + " points, the limit is " +
-                   std::to_string(max_points) + " (--max-scan-points)");
+                   std::to_string(max_points) + " (max_scan_points)");
 }
 
 /// Points as a message packs them: the machine's own numbers, which are little-endian.

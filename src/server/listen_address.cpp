@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kUnix = "unix:";
 
 [[noreturn]] void refuse(const std::string& text, const char* why) {
-  throw UsageError("--listen: '" + text + "' " + why);
+  throw UsageError("listen: '" + text + "' " + why);
 }
 
 bool is_loopback(const std::string& host) {
@@ -53,7 +53,7 @@ void check_tls(const ListenAddress& address, const TlsFiles& tls) {
   }
   if (tls.certificate.empty() || tls.key.empty() || tls.client_ca.empty()) {
     refuse(address.text,
-           "can be reached from other machines: give --tls-cert, --tls-key and --tls-client-ca");
+           "can be reached from other machines: give a certificate, its key and the client CA");
   }
 }
 

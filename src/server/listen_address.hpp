@@ -9,9 +9,9 @@ namespace nbvopt {
 
 /// The certificates of a server that is to be reached from other machines, PEM files.
 struct TlsFiles {
-  std::string certificate;  ///< the server's own
-  std::string key;          ///< the server's own
-  std::string client_ca;    ///< signs the certificates of those who may call
+  std::filesystem::path certificate;  ///< the server's own
+  std::filesystem::path key;          ///< the server's own
+  std::filesystem::path client_ca;    ///< signs the certificates of those who may call
 
   bool operator==(const TlsFiles&) const = default;
   bool is_empty() const { return *this == TlsFiles{}; }

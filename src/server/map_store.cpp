@@ -103,14 +103,14 @@ void MapStore::check_extent(const Eigen::AlignedBox3d& box_m) const {
   const double side_m = box_m.sizes().maxCoeff();
   if (box_m.isEmpty() || side_m <= limits_.max_map_extent_m) return;
   throw LimitError("the map would be " + format_number(side_m) + " m long, the limit is " +
-                   format_number(limits_.max_map_extent_m) + " m (--max-map-extent)");
+                   format_number(limits_.max_map_extent_m) + " m (max_map_extent_m)");
 }
 
 void MapStore::check_size(double bytes) const {
   const double mib = bytes / (1 << 20);
   if (mib <= static_cast<double>(limits_.max_map_mib)) return;
   throw LimitError("the map takes " + format_number(std::round(mib)) + " MiB, the limit is " +
-                   std::to_string(limits_.max_map_mib) + " MiB (--max-map-mib)");
+                   std::to_string(limits_.max_map_mib) + " MiB (max_map_mib)");
 }
 
 Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const {
@@ -118,8 +118,8 @@ Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const 
       map.resolution_m() > limits_.max_map_extent_m) {
     throw LimitError("the map's voxels would be " + format_number(map.resolution_m()) +
                      " m wide, the limits are " + format_number(limits_.min_resolution_m) +
-                     " m (--min-resolution) and " + format_number(limits_.max_map_extent_m) +
-                     " m (--max-map-extent)");
+                     " m (min_resolution_m) and " + format_number(limits_.max_map_extent_m) +
+                     " m (max_map_extent_m)");
   }
   Eigen::AlignedBox3d box_m;
   if (const auto box = map.known_box()) {

@@ -61,7 +61,7 @@ void RequestHandler::check_size(const google::protobuf::Message& message) const 
   if (bytes <= static_cast<std::uint64_t>(limits_.max_message_mib) * kMib) return;
   throw LimitError("the message has " + std::to_string((bytes + kMib - 1) / kMib) +
                    " MiB, the limit is " + std::to_string(limits_.max_message_mib) +
-                   " MiB (--max-message-mib)");
+                   " MiB (max_message_mib)");
 }
 
 v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
@@ -89,8 +89,7 @@ v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
   check_size(message);
   if (message.views_size() > limits_.max_views) {
     throw LimitError("the call has " + std::to_string(message.views_size()) +
-                     " views, the limit is " + std::to_string(limits_.max_views) +
-                     " (--max-views)");
+                     " views, the limit is " + std::to_string(limits_.max_views) + " (max_views)");
   }
   const std::shared_ptr<const ViewPlanner> planner = store_.published();
   std::vector<Transform> poses_T_map_sensor;
@@ -209,7 +208,7 @@ std::uint64_t RequestHandler::durable_version() const {
 const DataFolder& RequestHandler::data() const {
   if (data_ != nullptr) return *data_;
   throw RequestError(grpc::StatusCode::FAILED_PRECONDITION,
-                     "the server has no data folder, start it with --data-dir");
+                     "the server has no data folder, start it with one");
 }
 
 }  // namespace nbvopt

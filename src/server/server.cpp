@@ -37,7 +37,7 @@ Snapshot first_map(const ServerOptions& options) {
   if (!options.map_file.empty()) return {read_map(options.map_file), 1};
   if (!options.new_resolution_m) {
     throw UsageError(
-        "there is no map to start with: name a MAP, or give --create M for an empty one");
+        "there is no map to start with: give a map file, or the resolution of an empty one");
   }
   return {UncertaintyMap(*options.new_resolution_m), 1};
 }
@@ -154,8 +154,7 @@ Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(op
   spdlog::info("event=listening address=\"{}\" version={} map_version={}", address(), version(),
                parts_->store->published()->map_version());
   if (!parts_->snapshots) {
-    spdlog::warn(
-        "event=no_snapshot note=\"the map is lost when the server ends, give --snapshot\"");
+    spdlog::warn("event=no_snapshot note=\"the map is lost when the server ends\"");
   }
 }
 

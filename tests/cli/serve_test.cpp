@@ -162,10 +162,10 @@ TEST_F(Serve, SharesNeitherSocketNorSnapshot) {
 TEST_F(Serve, RefusesWhatItCannotStartWith) {
   expect_refusal(nbvopt_run({"serve"}), 2, "--create");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--listen", "0.0.0.0:0"}), 2,
-                 "--tls-cert");
+                 "certificate");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--listen", "here"}), 2, "HOST:PORT");
   expect_refusal(nbvopt_run({"serve", "--create", "0"}), 3, "positive");
-  expect_refusal(nbvopt_run({"serve", "--create", "1e-4"}), 3, "--min-resolution");
+  expect_refusal(nbvopt_run({"serve", "--create", "1e-4"}), 3, "min_resolution_m");
   expect_refusal(nbvopt_run({"serve", "none.ot"}), 3, "none.ot");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--data-dir", "/none"}), 3, "data folder");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--snapshot", "/none/s.ot"}), 3, "/none");

@@ -225,12 +225,12 @@ TEST(Messages, RefuseScansBeyondTheLimit) {
   v1::InsertScanRequest request;
   *request.mutable_points() = to_message(test::small_scan());
   EXPECT_THAT(test::message_of<LimitError>([&] { scan_from_message(request, 1270); }),
-              HasSubstr("--max-scan-points"));
+              HasSubstr("max_scan_points"));
   EXPECT_EQ(test::message_of<LimitError>([&] { scan_from_message(request, 1271); }), "");
   request.mutable_depth_image()->set_width_px(0xFFFFFFFF);
   request.mutable_depth_image()->set_height_px(0xFFFFFFFF);
   EXPECT_THAT(test::message_of<LimitError>([&] { scan_from_message(request, 1270); }),
-              HasSubstr("--max-scan-points"));
+              HasSubstr("max_scan_points"));
 }
 
 }  // namespace

@@ -371,7 +371,7 @@ class RefusalTest(ClientTest):
         )
         nowhere = np.diag((1.0, 1.0, -1.0, 1.0))
         self.assert_fails(code.INVALID_ARGUMENT, "rotation", planner.evaluate, [nowhere])
-        self.assert_fails(code.OUT_OF_RANGE, "--max-views", planner.evaluate, 4 * [np.eye(4)])
+        self.assert_fails(code.OUT_OF_RANGE, "max_views", planner.evaluate, 4 * [np.eye(4)])
         self.assert_fails(code.INVALID_ARGUMENT, "format", planner.get_map, 99)
 
     def test_server_without_a_data_folder(self):
@@ -379,7 +379,7 @@ class RefusalTest(ClientTest):
         self.addCleanup(server.stop)
         with PlannerClient(server.address) as planner:
             self.assert_fails(
-                grpc.StatusCode.FAILED_PRECONDITION, "--data-dir", planner.save_map, "out.ot"
+                grpc.StatusCode.FAILED_PRECONDITION, "no data folder", planner.save_map, "out.ot"
             )
 
     def test_no_server_there(self):

@@ -66,7 +66,7 @@ TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
   far.translation().x() += 20.0;
   const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
   EXPECT_THAT(test::message_of<LimitError>([&] { store.insert(test::small_scan(), far); }),
-              HasSubstr("--max-map-extent"));
+              HasSubstr("max_map_extent_m"));
   EXPECT_EQ(store.published()->map_version(), 1U);
   EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
   store.insert(test::small_scan(), test::scan_pose(0));  // the refused one did not count
@@ -82,17 +82,17 @@ TEST(MapStore, RefusesMapsThatAreTooLarge) {
   wide.set(test::key_from_origin(200, 0, 0), test::kFree);
   wide.finish_writing();
   EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(wide)); }),
-              HasSubstr("--max-map-extent"));
+              HasSubstr("max_map_extent_m"));
   UncertaintyMap dense(0.02);  // a voxel in each of 30 bricks
   for (int brick = 0; brick < 30; ++brick)
     dense.set(test::key_from_origin(32 * (brick % 5), 32 * (brick / 5), 0), test::kFree);
   dense.finish_writing();
   EXPECT_THAT(test::message_of<LimitError>([&] { store.replace(std::move(dense)); }),
-              HasSubstr("--max-map-mib"));
+              HasSubstr("max_map_mib"));
   EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(0.001); }),
-              HasSubstr("--min-resolution"));
+              HasSubstr("min_resolution_m"));
   EXPECT_THAT(test::message_of<LimitError>([&] { store.clear(1e300); }),
-              HasSubstr("--max-map-extent"));
+              HasSubstr("max_map_extent_m"));
   EXPECT_EQ(store.published()->map_version(), 1U);
 }
 
@@ -104,7 +104,7 @@ TEST(MapStore, RefusesScansWhenItIsFull) {
   const std::string message = test::message_of<LimitError>([&] {
     for (; inserted < 50; ++inserted) store.insert(test::small_scan(), test::scan_pose(inserted));
   });
-  EXPECT_THAT(message, HasSubstr("--max-map-mib"));
+  EXPECT_THAT(message, HasSubstr("max_map_mib"));
   EXPECT_GT(inserted, 0);
   EXPECT_EQ(store.published()->map_version(), static_cast<std::uint64_t>(inserted + 1));
 }

@@ -98,7 +98,7 @@ TEST_F(RequestHandlerTest, SaysWhichViewIsBad) {
               HasSubstr("views[1] is not set"));
   for (int i = 0; i < 2; ++i) request.add_views();
   EXPECT_THAT(test::message_of<LimitError>([&] { handler.evaluate(request, Clock::now(), {}); }),
-              HasSubstr("--max-views"));
+              HasSubstr("max_views"));
 }
 
 TEST_F(RequestHandlerTest, AnswersAllViewsOrNone) {
@@ -170,7 +170,7 @@ TEST_F(RequestHandlerTest, KeepsItsMapWhenAFileCannotBeRead) {
   EXPECT_EQ(store.published()->map_version(), 1U);
   RequestHandler without(store, nullptr, nullptr, limits);
   EXPECT_THAT(test::message_of<RequestError>([&] { without.load_map(load); }),
-              HasSubstr("--data-dir"));
+              HasSubstr("no data folder"));
 }
 
 TEST_F(RequestHandlerTest, TellsItsStatus) {

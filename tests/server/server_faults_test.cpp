@@ -233,8 +233,7 @@ TEST_F(ServerFaults, AMessageThatIsTooLarge) {
   request.mutable_points()->mutable_xyz_m()->resize(12 << 21);
   const grpc::Status refused = insert(request);
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::OUT_OF_RANGE);
-  EXPECT_THAT(refused.error_message(),
-              HasSubstr("25 MiB, the limit is 16 MiB (--max-message-mib)"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("25 MiB, the limit is 16 MiB (max_message_mib)"));
   request.mutable_points()->mutable_xyz_m()->resize(12 << 22);
   EXPECT_EQ(insert(request).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }

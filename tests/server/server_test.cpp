@@ -186,7 +186,7 @@ TEST_F(ServerTest, TellsWhatIsWrongWithACall) {
   EXPECT_THAT(test::message_of<ServerError>([&] { client.save_map("snapshot.ot"); }),
               HasSubstr("own file"));
   EXPECT_THAT(test::message_of<ServerError>([&] { client.clear_map(1e-6); }),
-              HasSubstr("--min-resolution"));
+              HasSubstr("min_resolution_m"));
 }
 
 TEST_F(ServerTest, KeepsItsSocketToItself) {
@@ -281,7 +281,7 @@ TEST(Server, ResumesFromItsSnapshot) {
 
 TEST(Server, NeedsAMapToStartWith) {
   EXPECT_THAT(test::message_of<UsageError>([] { Server server(ServerOptions{}); }),
-              HasSubstr("--create"));
+              HasSubstr("no map to start with"));
 }
 
 }  // namespace
