@@ -6,6 +6,7 @@
 #include <istream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -20,6 +21,12 @@ class ByteReader {
   /// stream ends before.
   const char* peek(std::size_t count) {
     return count > available_ && !refill(count) ? nullptr : next_;
+  }
+
+  /// Whether these bytes come next; they are not taken.
+  bool begins_with(std::string_view bytes) {
+    const char* next = peek(bytes.size());
+    return next != nullptr && std::string_view(next, bytes.size()) == bytes;
   }
 
   /// Whether all bytes were taken.

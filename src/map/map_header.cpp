@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/number.hpp"
+#include "map/other_formats.hpp"
 #include "map/whole_number.hpp"
 #include "nbvopt/core/error.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw InputError(name + ": " + what);
 }
+
+constexpr const char* kNotAMap = "this is not an OctoMap file (.bt or .ot)";
 
 bool is_resolution(double metres) { return metres > 0.0 && std::isfinite(metres); }
 
@@ -35,7 +38,7 @@ MapHeader read_old_header(ByteReader& in, const std::string& name) {
   header.resolution_m = number_at<double>(bytes);
   header.nodes = number_at<std::uint32_t>(bytes + sizeof(double));
   if (!is_resolution(header.resolution_m)) {
-    refuse(name, "this is not an OctoMap file (.bt or .ot)");
+    refuse(name, kNotAMap);
   }
   return header;
 }
@@ -58,16 +61,15 @@ MapHeader read_map_header(ByteReader& in, const std::string& name,
                           std::vector<std::string>& warnings) {
   constexpr std::size_t kMaxLine = 1024;
   constexpr int kMaxLines = 1000;
-  constexpr const char* kNotAMap = "this is not an OctoMap file (.bt or .ot)";
-
   if (is_old_header(in)) return read_old_header(in, name);
-  const auto first = in.take_line(kMaxLine);
-  if (!first) refuse(name, kNotAMap);
   MapHeader header;
-  header.is_binary = first->starts_with(kBinaryMagic);
-  if (!header.is_binary && !first->starts_with(kFullMagic)) refuse(name, kNotAMap);
+  header.is_binary = in.begins_with(kBinaryMagic);
+  if (!header.is_binary && !in.begins_with(kFullMagic)) {
+    refuse(name, std::string(kNotAMap) + "; " + what_else(in));
+  }
 
   std::string size;
+  in.take_line(kMaxLine);
   for (int i = 0; i < kMaxLines; ++i) {
     const auto line = in.take_line(kMaxLine);
     if (!line) refuse(name, "the header has no line 'data', the file is truncated or damaged");

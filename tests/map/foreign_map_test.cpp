@@ -140,6 +140,27 @@ TEST(ForeignMap, WithoutANumberOfNodesIsReadToItsLast) {
   EXPECT_EQ(reading(full_header("OcTree", "size 0\n")).map.counts().nodes, 0U);
 }
 
+TEST(ForeignMap, OfAnotherKindIsToldApartAndRefusedWithARemedy) {
+  const std::map<std::string, std::string> files{
+      {"PK\x03\x04 map.bt", "unpack it first"},
+      {"BZh91AY&SY", "unpack it first"},
+      {"# .PCD v0.7 - Point Cloud Data file format\n", "insert it into a map"},
+      {"ply\nformat ascii 1.0\n", "insert it into a map"},
+      {"P5\n2 2\n255\n1234", "no heights"},
+      {"image: a.pgm\nresolution: 0.05\n", "no heights"},
+      {"# UFOMap octree file\nversion 1.0.0\n", "write its map as a .bt"},
+      {"Bonxai::VoxelGrid<float,2,3>(0.05)\n", "write its map as a .bt"},
+      {"#ROSBAG V2.0\n", "bytes of `data`"},
+      {"header:\n  frame_id: map\nbinary: true\n", "bytes of its `data`"},
+      {"{\"id\": \"OcTree\", \"data\": [0, 3]}", "bytes of its `data`"},
+      {"anything", "with that program"},
+      {"#", "with that program"},
+  };
+  for (const auto& [bytes, remedy] : files) {
+    EXPECT_THAT(refusal(bytes), AllOf(HasSubstr("not an OctoMap file"), HasSubstr(remedy)));
+  }
+}
+
 TEST(ForeignMap, OfOctoMapsFirstBinaryFormatIsRead) {
   const std::string file = octomap_file<octomap::OcTree>(true);
   const auto count = bytes_of(static_cast<std::uint32_t>(reading(file).map.counts().nodes));
