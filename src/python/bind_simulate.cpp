@@ -58,6 +58,26 @@ Drive drive_from(const DriveArgument& trajectory) {
   return {read_trajectory(std::get<std::filesystem::path>(trajectory))};
 }
 
+/// Runs the episode. Whatever ends it early has the map so far as its attribute `map`.
+EpisodeReport run_or_hand_out_map(Simulation& simulation, const Scene& scene,
+                                  const Trajectory& trajectory) {
+  const auto hand_out_map = [&](const py::object& exception) {
+    exception.attr("map") = std::make_shared<SharedMap>(std::move(simulation.map()));
+  };
+  try {
+    const py::gil_scoped_release release;
+    return simulation.run(scene, trajectory, [](const Capture&) { check_signals(); });
+  } catch (const py::error_already_set& stopped) {
+    hand_out_map(stopped.value());
+    throw;
+  } catch (const Error& error) {
+    const py::object exception = py::handle(PyExc_ValueError)(error.what());
+    hand_out_map(exception);
+    PyErr_SetObject(PyExc_ValueError, exception.ptr());
+    throw py::error_already_set();
+  }
+}
+
 std::unique_ptr<Episode> simulate(
     const WorldArgument& world_argument, const std::optional<py::object>& start, const Goals& goals,
     const std::optional<DriveArgument>& replayed, double lidar_range_m, double duration_max_s,
@@ -87,9 +107,7 @@ std::unique_ptr<Episode> simulate(
   const Drive drive = replayed ? drive_from(*replayed)
                                : drive_through(*world, *start, goals, region, lidar_range_m,
                                                duration_max_s, options.episode.seed);
-  const py::gil_scoped_release release;
-  EpisodeReport report =
-      simulation.run(world->scene, drive.trajectory, [](const Capture&) { check_signals(); });
+  EpisodeReport report = run_or_hand_out_map(simulation, world->scene, drive.trajectory);
   report.drive_status = drive.status;
   return std::make_unique<Episode>(
       Episode{drive, robot, simulation.captures(), report,
@@ -124,7 +142,8 @@ constexpr const char* kSimulateText =
     "resolution_m: of the map's voxels.\n"
     "seed: of exploration, noise, and modes that draw random numbers.\n\n"
     "ValueError: a mode that is not known, joints beyond their limits, a number out of range, and "
-    "as explore().";
+    "as explore(). What ends the episode before the drive does, Ctrl-C too, has the Map so far as "
+    "its attribute `map`.";
 
 }  // namespace
 

@@ -131,6 +131,15 @@ class EpisodeTest(SimulationTest):
         with self.assertRaises(KeyboardInterrupt):
             nbvopt.simulate(self.world, start=START, mode="static")
 
+    def test_ctrl_c_hands_out_the_map(self):
+        drive = nbvopt.explore(self.world, START, duration_max_s=60)
+        timer = threading.Timer(0.5, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        self.addCleanup(timer.cancel)
+        with self.assertRaises(KeyboardInterrupt) as stopped:
+            nbvopt.simulate(self.world, trajectory=drive, mode="static", capture_hz=100)
+        self.assertGreater(stopped.exception.map.counts().occupied_voxels, 0)
+
 
 class ExploreTest(SimulationTest):
     def test_is_that_of_the_command_line(self):
