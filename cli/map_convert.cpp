@@ -34,7 +34,7 @@ std::string format_name(const ConvertOptions& options) {
   const std::string extension = std::filesystem::path(options.output_file).extension().string();
   const bool is_floor_plan = options.format.empty() ? extension == ".pgm" || extension == ".yaml"
                                                     : options.format == kFloorPlan;
-  const std::string name =
+  std::string name =
       is_floor_plan ? kFloorPlan : to_string(map_format(options.format, options.output_file));
   if (options.height_band && !is_floor_plan) {
     throw UsageError("--height-band is of floor plans (.pgm) only");
