@@ -1,6 +1,7 @@
 #include "nbvopt/sim/camera_mode.hpp"
 
 #include <array>
+#include <cstdint>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,8 @@ namespace {
 class StaticCamera : public CameraMode {
  public:
   bool plans() const override { return false; }
-  NextView next_view(const ViewPlanner& /*planner*/, const PlanRequest& request) const override {
+  NextView next_view(const ViewPlanner& /*planner*/, const PlanRequest& request,
+                     const TrueGain& /*true_gain*/) const override {
     return {.joints = request.joints};
   }
 };
@@ -23,7 +25,8 @@ class SearchingCamera : public CameraMode {
  public:
   explicit SearchingCamera(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) {}
 
-  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
+                     const TrueGain& /*true_gain*/) const override {
     const PlanResult result = planner.plan(request, *solver_);
     return {.joints = result.joints, .predicted_gain = result.view.gain};
   }
@@ -32,17 +35,49 @@ class SearchingCamera : public CameraMode {
   std::unique_ptr<Solver> solver_;
 };
 
-class RandomCamera : public CameraMode {
+/// Draws views in reach of a request, each as likely as another.
+class RandomViews {
  public:
-  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
-    const JointBox box = planner.reachable_box(request);
-    std::seed_seq seeds{request.seed, request.seed >> 32};
-    std::mt19937_64 random(seeds);
+  RandomViews(const JointBox& box, std::uint64_t seed) : box_(box) {
+    std::seed_seq seeds{seed, seed >> 32};
+    random_.seed(seeds);
+  }
+
+  JointPosition next() {
     Eigen::Vector3d q;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = box.min[i] + std::generate_canonical<double, 53>(random) * (box.max[i] - box.min[i]);
+      q[i] = box_.min[i] +
+             std::generate_canonical<double, 53>(random_) * (box_.max[i] - box_.min[i]);
     }
-    return {.joints = JointPosition::from(q.cwiseMax(box.min).cwiseMin(box.max))};
+    return JointPosition::from(q.cwiseMax(box_.min).cwiseMin(box_.max));
+  }
+
+ private:
+  JointBox box_;
+  std::mt19937_64 random_;
+};
+
+class RandomCamera : public CameraMode {
+ public:
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
+                     const TrueGain& /*true_gain*/) const override {
+    return {.joints = RandomViews(planner.reachable_box(request), request.seed).next()};
+  }
+};
+
+class OracleCamera : public CameraMode {
+ public:
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
+                     const TrueGain& true_gain) const override {
+    constexpr int kViews = 100;
+    NextView best{.joints = request.joints, .predicted_gain = true_gain(request.joints)};
+    RandomViews views(planner.reachable_box(request), request.seed);
+    for (int i = 0; i < kViews; ++i) {
+      const JointPosition joints = views.next();
+      const double gain = true_gain(joints);
+      if (gain > best.predicted_gain) best = {.joints = joints, .predicted_gain = gain};
+    }
+    return best;
   }
 };
 
@@ -72,6 +107,8 @@ constexpr std::array kModes{
               }},
     NamedMode{"random",
               []() -> std::unique_ptr<CameraMode> { return std::make_unique<RandomCamera>(); }},
+    NamedMode{"oracle",
+              []() -> std::unique_ptr<CameraMode> { return std::make_unique<OracleCamera>(); }},
 };
 
 }  // namespace

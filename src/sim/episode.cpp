@@ -95,9 +95,7 @@ class EpisodeRun {
     // The first view was nobody's choice.
     capture.predicted_gain = predicted_gain_;
     if (std::isfinite(predicted_gain_)) {
-      const Transform T = T_map_sensor(capture);
-      capture.realised_gain =
-          realised_gain(map_, planning_camera_, camera_.planning_distances_m(T), T);
+      capture.realised_gain = true_gain(T_map_sensor(capture));
       summary_.prediction.add(capture.predicted_gain, capture.realised_gain);
     }
     insert(capture);
@@ -168,19 +166,28 @@ class EpisodeRun {
     capture.voxels = summary_.voxels;
     capture.information = summary_.information;
     capture.information_gain = inserted.information_gained;
+    summary_.growth.add(capture.time_s, capture.information);
   }
 
   /// Plans the view of the capture that follows, at `next_s`. An expected gain is worth knowing
   /// where the base will be then; Eq. 12 does worse with it than with a base that stays.
   NextView plan(Capture& capture, double next_s) const {
     if (!grid_) return {.joints = capture.joints};
-    PlanRequest next = request(capture);
-    if (is_expected()) {
-      next.T_map_base = trajectory_.T_map_base(std::min(next_s, trajectory_.duration_s()));
-    }
+    const PlanRequest now = request(capture);
+    PlanRequest next = now;
+    next.T_map_base = trajectory_.T_map_base(std::min(next_s, trajectory_.duration_s()));
     return timed(capture.plan_ms, [&] {
-      return mode_.next_view(ViewPlanner(grid_, options_.robot, summary_.hazards), next);
+      return mode_.next_view(ViewPlanner(grid_, options_.robot, summary_.hazards),
+                             is_expected() ? next : now, [&](const JointPosition& joints) {
+                               return true_gain(nbvopt::T_map_sensor(next, mast_, joints));
+                             });
     });
+  }
+
+  /// What a view from there would realise on the map as it is.
+  double true_gain(const Transform& T_map_sensor) const {
+    return realised_gain(map_, planning_camera_, camera_.planning_distances_m(T_map_sensor),
+                         T_map_sensor);
   }
 
   bool is_expected() const { return options_.robot.sensor.gain == GainKind::expected; }

@@ -1,5 +1,6 @@
 #include "sim/episode_output.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <system_error>
@@ -29,6 +30,41 @@ std::optional<ExplorationStatus> drive_status_of(const Json& json) {
 }
 
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
+
+constexpr std::size_t kGrowthPoints = 200;  ///< of a report: steps of half a percent
+
+Json to_json(const InformationGrowth& growth) {
+  Json time_s = Json::array();
+  Json information = Json::array();
+  const InformationGrowth thin = growth.thinned(kGrowthPoints);
+  for (const InformationGrowth::Point& point : thin.points()) {
+    time_s.push_back(point.time_s);
+    information.push_back(point.information);
+  }
+  return {{"time_s", time_s}, {"information", information}};
+}
+
+InformationGrowth growth_of(const Json& json) {
+  const auto time_s = json.at("time_s").get<std::vector<double>>();
+  const auto information = json.at("information").get<std::vector<double>>();
+  InformationGrowth growth;
+  for (std::size_t i = 0; i < std::min(time_s.size(), information.size()); ++i) {
+    growth.add(time_s[i], information[i]);
+  }
+  return growth;
+}
+
+/// When half of the final map was there, and more of it.
+std::string growth_text(const EpisodeSummary& summary) {
+  std::string text = "growth: " +
+                     decimal(summary.growth.mean_until(summary.duration_s), 1) +
+                     " information on average over the drive";
+  for (const double share : {0.5, 0.8, 0.9}) {
+    const auto time_s = summary.growth.time_to_s(share * summary.information);
+    if (time_s) text += ", " + percent(share) + " after " + decimal(*time_s, 1) + " s";
+  }
+  return text + '\n';
+}
 
 }  // namespace
 
@@ -105,6 +141,8 @@ Json to_json(const EpisodeReport& report) {
       {"captures", summary.captures},
       {"voxels", summary.voxels},
       {"information", summary.information},
+      {"mean_information", summary.growth.mean_until(summary.duration_s)},
+      {"growth", to_json(summary.growth)},
       {"voxels_as_paper_counts", report.paper_counts.voxels},
       {"information_as_paper_counts", report.paper_counts.information},
       {"prediction",
@@ -145,6 +183,7 @@ EpisodeReport episode_report_of(const Json& json) {
                       .captures = count(json, "captures"),
                       .voxels = count(json, "voxels"),
                       .information = number(json, "information"),
+                      .growth = growth_of(json.at("growth")),
                       .prediction = {.steps = count(prediction, "steps"),
                                      .sum_x = number(pooled, "sum_x"),
                                      .sum_y = number(pooled, "sum_y"),
@@ -168,7 +207,7 @@ std::string to_text(const EpisodeReport& report) {
                      " s: " + std::to_string(summary.captures) + " captures in " +
                      decimal(summary.duration_s, 1) + " s of driving\n" +
                      "map: " + std::to_string(summary.voxels) + " voxels with u < 1, information " +
-                     decimal(summary.information, 1) + "\n";
+                     decimal(summary.information, 1) + "\n" + growth_text(summary);
   if (std::isfinite(prediction.correlation())) {
     text += "gain: predicted " + decimal(prediction.sum_x, 0) + ", realised " +
             decimal(prediction.sum_y, 0) + " (bias " + percent(prediction.bias()) +

@@ -20,7 +20,10 @@ EpisodeReport made_episode() {
                     .captures = 5,
                     .voxels = 12'345,
                     .information = 0.1 + 0.2,
+                    .growth = {},
                     .prediction = {2, 3.5, 4, 5, 10.25, 7}};
+  report.summary.growth.add(0.0, 0.1);
+  report.summary.growth.add(0.2, 0.1 + 0.2);
   report.paper_counts = {.voxels = 20'000, .information = 1e-9};
   report.times = {1.5, 2.5, 3.5, 4.5};
   report.elapsed_ms = 99.0;
@@ -35,6 +38,7 @@ TEST(EpisodeReport, IsTheSameAfterItsWayThroughText) {
   EXPECT_EQ(read.summary.prediction.sum_xy, 7.0);
   EXPECT_EQ(read.paper_counts.voxels, 20'000U);
   EXPECT_EQ(read.times.plan_ms, 4.5);
+  EXPECT_EQ(read.summary.growth.points(), made_episode().summary.growth.points());
 }
 
 TEST(EpisodeReport, ToleratesThatNothingWasPredicted) {
@@ -45,9 +49,16 @@ TEST(EpisodeReport, ToleratesThatNothingWasPredicted) {
   EXPECT_EQ(to_json(episode_report_of(json)), json);
 }
 
+TEST(EpisodeReport, TellsHowFastTheMapGrew) {
+  const Json json = to_json(made_episode());
+  EXPECT_NEAR(json.at("mean_information").get<double>(), (0.2 * 0.1 + (1.0 / 3 - 0.2) * 0.3) * 3,
+              1e-12);
+  EXPECT_THAT(to_text(made_episode()), HasSubstr("50 % after 0.2 s"));
+}
+
 TEST(EpisodeReport, MissesEveryFigure) {
   for (const char* key :
-       {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information",
+       {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information", "growth",
         "voxels_as_paper_counts", "information_as_paper_counts", "prediction", "times_ms"}) {
     Json json = to_json(made_episode());
     json.erase(key);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "core/text_file.hpp"
@@ -102,12 +103,32 @@ TEST(Episode, LearnsMoreTheMoreItSearches) {
   EXPECT_GT(information["grid-3"], information["grid"]);
   EXPECT_GT(information["auto"], information["grid"]);
   EXPECT_GT(information["auto"], information["random"]);
+  EXPECT_GT(information["oracle"], information["grid"]) << "one view at a time, yet it cheats";
+}
+
+TEST(Episode, RealisesExactlyWhatTheOracleSaw) {
+  const FinishedEpisode episode = run("oracle", coarse_options());
+  ASSERT_GT(episode.captures.size(), 2U);
+  for (const Capture& capture : std::span(episode.captures).subspan(1)) {
+    EXPECT_EQ(capture.predicted_gain, capture.realised_gain) << "the same pose, the same map";
+  }
+}
+
+TEST(Episode, ReportsItsGrowth) {
+  const FinishedEpisode episode = run("auto", coarse_options());
+  const auto& points = episode.summary.growth.points();
+  ASSERT_EQ(points.size(), episode.captures.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(points[i].time_s, episode.captures[i].time_s);
+    EXPECT_EQ(points[i].information, episode.captures[i].information);
+  }
 }
 
 /// Keeps the camera where it is, and what it was asked and told.
 class WatchingMode : public CameraMode {
  public:
-  NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const override {
+  NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
+                     const TrueGain& /*true_gain*/) const override {
     requests.push_back(request);
     hazards.push_back(planner.hazards());
     const Transform T = T_map_sensor(request, planner.mast(), request.joints);
@@ -262,7 +283,7 @@ TEST(Episode, RefusesWhatCannotBeRun) {
   options.start_joints.height_m = 2.0;
   EXPECT_NE(refusal(options), "");
   EXPECT_EQ(message_of<UsageError>([] { make_camera_mode("clever"); }),
-            "there is no camera mode 'clever': the modes are static, grid, grid-3, auto, random");
+            "there is no camera mode 'clever': the modes are static, grid, grid-3, auto, random, oracle");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The ways in which an episode moves the camera.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -16,6 +17,10 @@ struct NextView {
   double predicted_gain = std::numeric_limits<double>::quiet_NaN();  ///< NaN: nobody asked
 };
 
+/// What a view will truly bring at the next capture, as Capture::realised_gain has it: found by
+/// looking there, so only a mode that cheats asks.
+using TrueGain = std::function<double(const JointPosition&)>;
+
 /// Const and safe to share between threads.
 class CameraMode {
  public:
@@ -25,7 +30,8 @@ class CameraMode {
   virtual bool plans() const { return true; }
 
   /// Chooses within reach of the request.
-  virtual NextView next_view(const ViewPlanner& planner, const PlanRequest& request) const = 0;
+  virtual NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
+                             const TrueGain& true_gain) const = 0;
 };
 
 /// The modes by name:
@@ -34,6 +40,8 @@ class CameraMode {
 ///   grid-3   the paper's search over three joints: steps of 0.4 rad, 0.25 rad and 0.075 m
 ///   auto     the continuous search
 ///   random   any view in reach, each as likely as another: what motion alone brings
+///   oracle   of staying and 100 random views the one that truly brings the most: it cheats, and
+///            bounds what choosing one view at a time can bring
 std::vector<std::string> camera_mode_names();
 
 /// Throws UsageError that lists the names when `name` is not one of them.

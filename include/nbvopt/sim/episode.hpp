@@ -11,6 +11,7 @@
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/camera_mode.hpp"
+#include "nbvopt/sim/information_growth.hpp"
 #include "nbvopt/sim/prediction_record.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/trajectory.hpp"
@@ -64,6 +65,7 @@ struct EpisodeSummary {
   std::uint64_t captures = 0;
   std::uint64_t voxels = 0;
   double information = 0.0;
+  InformationGrowth growth;
   PredictionRecord prediction;
   HazardTable hazards = HazardTable();  ///< learnt, where the gain is expected
 };
