@@ -66,10 +66,14 @@ Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
                   const EpisodeSetting& setting) {
   Unit unit = units[drive];
   unit.name = std::string(unit.environment->name) + '-' + std::to_string(unit.start) + '-' +
-              setting.mode + '-' + format_number(setting.motion_time_s);
+              setting.mode + gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
   unit.drive = drive;
   unit.simulation.setting = setting;
   return unit;
+}
+
+EpisodeSetting expected(double motion_time_s) {
+  return {"auto", motion_time_s, GainKind::expected};
 }
 
 }  // namespace
@@ -112,9 +116,10 @@ std::span<const ExperimentEnvironment> experiment_environments() {
 
 std::span<const EpisodeSetting> episode_settings() {
   static const EpisodeSetting kSettings[] = {
-      {"static", 0.2}, {"grid", 0.2}, {"auto", 0.2},                                    //
-      {"static", 0.5}, {"grid", 0.5}, {"grid-3", 0.5}, {"auto", 0.5}, {"random", 0.5},  //
-      {"static", 1.0}, {"grid", 1.0}, {"auto", 1.0},
+      {"static", 0.2}, {"grid", 0.2},   {"auto", 0.2},   expected(0.2), {"oracle", 0.2},  //
+      {"static", 0.5}, {"grid", 0.5},   {"grid-3", 0.5}, {"auto", 0.5}, expected(0.5),
+      {"random", 0.5}, {"oracle", 0.5},  //
+      {"static", 1.0}, {"grid", 1.0},   {"auto", 1.0},   expected(1.0), {"oracle", 1.0},
   };
   return kSettings;
 }

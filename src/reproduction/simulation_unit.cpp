@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/number.hpp"
 #include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -20,7 +22,9 @@ Json to_json(const DriveSetting& drive) {
 }
 
 Json to_json(const EpisodeSetting& episode) {
-  return {{"mode", episode.mode}, {"motion_time_s", episode.motion_time_s}};
+  return {{"mode", episode.mode},
+          {"motion_time_s", episode.motion_time_s},
+          {"gain", to_string(episode.gain)}};
 }
 
 DriveSetting drive_setting_of(const Json& json) {
@@ -32,7 +36,8 @@ DriveSetting drive_setting_of(const Json& json) {
 
 EpisodeSetting episode_setting_of(const Json& json) {
   return {.mode = json.at("mode").get<std::string>(),
-          .motion_time_s = json.at("motion_time_s").get<double>()};
+          .motion_time_s = json.at("motion_time_s").get<double>(),
+          .gain = enum_value<GainKind>(json.at("gain").get<std::string>()).value()};
 }
 
 Json to_json(const WorldSource& world) {
@@ -72,8 +77,10 @@ std::vector<std::string> arguments(const DriveSetting& drive, const std::string&
 }
 
 std::vector<std::string> arguments(const EpisodeSetting& episode, const std::string& trajectory) {
-  return {"--trajectory", trajectory,      "--mode",
-          episode.mode,   "--motion-time", format_number(episode.motion_time_s)};
+  return {"--trajectory",  trajectory,
+          "--mode",        episode.mode,
+          "--gain",        to_string(episode.gain),
+          "--motion-time", format_number(episode.motion_time_s)};
 }
 
 /// A word that a shell takes as it is, in quotes where need be.
@@ -94,6 +101,10 @@ std::string_view bytes_of(const std::vector<Value>& values) {
 }
 
 }  // namespace
+
+std::string gain_suffix(const EpisodeSetting& setting, char separator) {
+  return setting.gain == GainKind::positive ? "" : separator + to_string(setting.gain);
+}
 
 Json setting_json(const SimulationUnit& simulation) {
   return std::visit([](const auto& setting) { return to_json(setting); }, simulation.setting);

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/json.hpp"
+#include "nbvopt/sensor/sensor_options.hpp"
 #include "nbvopt/sim/world.hpp"
 
 namespace nbvopt {
@@ -25,13 +26,17 @@ struct DriveSetting {
   double duration_max_s;  ///< it ends then
 };
 
-/// The camera's mode in one episode and the time t that it may move for.
+/// The camera's mode in one episode, the time t that it may move for and the gain that it seeks.
 struct EpisodeSetting {
   std::string mode;  ///< as make_camera_mode() takes it
   double motion_time_s;
+  GainKind gain = GainKind::positive;  ///< the paper's
 
   bool operator==(const EpisodeSetting&) const = default;
 };
+
+/// How a name tells a setting's gain, where it is not the paper's: after that separator.
+std::string gain_suffix(const EpisodeSetting& setting, char separator);
 
 /// A world as it was when it was read.
 struct WorldSource {

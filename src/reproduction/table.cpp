@@ -19,6 +19,9 @@ using FigureOf = double (*)(const EpisodeReport&);
 double duration_s(const EpisodeReport& episode) { return episode.summary.duration_s; }
 double voxels(const EpisodeReport& episode) { return static_cast<double>(episode.summary.voxels); }
 double information(const EpisodeReport& episode) { return episode.summary.information; }
+double mean_information(const EpisodeReport& episode) {
+  return episode.summary.growth.mean_until(episode.summary.duration_s);
+}
 double voxels_as_paper_counts(const EpisodeReport& episode) {
   return static_cast<double>(episode.paper_counts.voxels);
 }
@@ -49,6 +52,16 @@ class ResultIndex {
     return found;
   }
 
+  /// The most that any episode on that drive has learnt.
+  double best_information(const ExperimentEnvironment& environment, std::size_t start) const {
+    double best = 0.0;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      if (units_[i].environment != &environment || units_[i].start != start) continue;
+      if (results_[i].episode) best = std::max(best, information(*results_[i].episode));
+    }
+    return best;
+  }
+
  private:
   std::span<const Unit> units_;
   std::span<const UnitResult> results_;
@@ -69,13 +82,14 @@ Episodes shared_with(const Episodes& episodes, const Episodes& others) {
 }
 
 std::string test_name(const EpisodeSetting& setting) {
-  return setting.mode == "static" ? "2D" : "2D+" + setting.mode;
+  return setting.mode == "static" ? "2D" : "2D+" + setting.mode + gain_suffix(setting, ' ');
 }
 
 void set_figures(ResultRow& row, const Episodes& episodes) {
   row.starts = static_cast<double>(episodes.size());
   row.voxels = mean(episodes, voxels);
   row.information = mean(episodes, information);
+  row.mean_information = mean(episodes, mean_information);
   row.duration_s = mean(episodes, duration_s);
   row.voxels_per_s = *row.voxels / *row.duration_s;
   row.information_per_s = *row.information / *row.duration_s;
@@ -93,6 +107,27 @@ void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes
   row.gain_percent = percent(information);
   row.as_paper_counts_voxels_percent = percent(voxels_as_paper_counts);
   row.as_paper_counts_gain_percent = percent(information_as_paper_counts);
+}
+
+/// The mean time until that share of the best map was known.
+std::optional<double> time_to_s(double share, const Episodes& episodes,
+                                const ExperimentEnvironment& environment,
+                                const ResultIndex& index) {
+  double sum_s = 0.0;
+  for (const auto& [start, episode] : episodes) {
+    const auto time_s =
+        episode.summary.growth.time_to_s(share * index.best_information(environment, start));
+    if (!time_s) return std::nullopt;
+    sum_s += *time_s;
+  }
+  return sum_s / static_cast<double>(episodes.size());
+}
+
+void set_regret(ResultRow& row, const Episodes& all_episodes, const Episodes& all_oracles) {
+  const Episodes oracles = shared_with(all_oracles, all_episodes);
+  if (oracles.empty()) return;
+  row.regret_percent = 100.0 * (1.0 - mean(shared_with(all_episodes, all_oracles), information) /
+                                          mean(oracles, information));
 }
 
 /// What the paper's tables say of this test: they know a still camera and the pan grid.
@@ -142,6 +177,10 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
       row.remark = "missing";
     } else {
       set_figures(row, episodes);
+      row.time_to_50_percent_s = time_to_s(0.5, episodes, environment, index);
+      row.time_to_80_percent_s = time_to_s(0.8, episodes, environment, index);
+      row.time_to_90_percent_s = time_to_s(0.9, episodes, environment, index);
+      set_regret(row, episodes, index.episodes(environment, {"oracle", setting.motion_time_s}));
       if (setting.mode != "static") {
         set_comparison(row, episodes,
                        index.episodes(environment, {"static", setting.motion_time_s}));

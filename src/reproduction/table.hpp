@@ -15,7 +15,7 @@ namespace nbvopt {
 /// Which test of which environment a row is about.
 struct RowLabel {
   std::string environment;
-  std::string test;  ///< "2D", "2D+<mode>" or "3D"
+  std::string test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>" or "3D"
   std::optional<double> motion_time_s;
 };
 
@@ -29,6 +29,13 @@ struct ResultRow : RowLabel {
   std::optional<double> information;
   std::optional<double> gain;
   std::optional<double> gain_percent;
+  std::optional<double> mean_information;  ///< over the drive
+  /// Until the map knew that share of what the best of all episodes on this drive knew at its end;
+  /// none where a start never came so far.
+  std::optional<double> time_to_50_percent_s;
+  std::optional<double> time_to_80_percent_s;
+  std::optional<double> time_to_90_percent_s;
+  std::optional<double> regret_percent;  ///< against the oracle of the same t, over shared starts
   std::optional<double> duration_s;
   std::optional<double> voxels_per_s;
   std::optional<double> information_per_s;

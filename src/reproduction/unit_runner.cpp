@@ -26,6 +26,7 @@ Json answer(const SimulationUnit& unit, const EpisodeSetting& setting, const Sce
   options.world = unit.world.file.string();
   options.mode = setting.mode;
   options.episode.motion_time_s = setting.motion_time_s;
+  options.episode.robot.sensor.gain = setting.gain;
   options.episode.seed = unit.seed;
   Simulation simulation(std::move(options));
   return to_json(simulation.run(scene, read_trajectory(unit.trajectory), [](const Capture&) {}));

@@ -46,8 +46,8 @@ class RandomViews {
   JointPosition next() {
     Eigen::Vector3d q;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = box_.min[i] +
-             std::generate_canonical<double, 53>(random_) * (box_.max[i] - box_.min[i]);
+      q[i] =
+          box_.min[i] + std::generate_canonical<double, 53>(random_) * (box_.max[i] - box_.min[i]);
     }
     return JointPosition::from(q.cwiseMax(box_.min).cwiseMin(box_.max));
   }

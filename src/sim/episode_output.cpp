@@ -56,8 +56,7 @@ InformationGrowth growth_of(const Json& json) {
 
 /// When half of the final map was there, and more of it.
 std::string growth_text(const EpisodeSummary& summary) {
-  std::string text = "growth: " +
-                     decimal(summary.growth.mean_until(summary.duration_s), 1) +
+  std::string text = "growth: " + decimal(summary.growth.mean_until(summary.duration_s), 1) +
                      " information on average over the drive";
   for (const double share : {0.5, 0.8, 0.9}) {
     const auto time_s = summary.growth.time_to_s(share * summary.information);

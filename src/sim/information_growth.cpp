@@ -16,8 +16,8 @@ double InformationGrowth::mean_until(double duration_s) const {
   double area = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double until_s = i + 1 < points_.size() ? points_[i + 1].time_s : duration_s;
-    area += points_[i].information *
-            std::max(0.0, std::min(until_s, duration_s) - points_[i].time_s);
+    area +=
+        points_[i].information * std::max(0.0, std::min(until_s, duration_s) - points_[i].time_s);
   }
   return area / duration_s;
 }

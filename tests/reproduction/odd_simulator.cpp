@@ -27,7 +27,7 @@ namespace {
 std::string name_of(const SimulationUnit& simulation) {
   const auto* episode = std::get_if<EpisodeSetting>(&simulation.setting);
   if (episode == nullptr) return "drive";
-  return episode->mode + '-' + format_number(episode->motion_time_s);
+  return episode->mode + gain_suffix(*episode, '-') + '-' + format_number(episode->motion_time_s);
 }
 
 /// True the first time.

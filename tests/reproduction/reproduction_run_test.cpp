@@ -24,13 +24,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
+const std::size_t kUnits = 1 + episode_settings().size();  // a drive, and what runs on it
 using Deeds = std::vector<std::string>;
 
 class ReproductionRun : public testing::Test {
  protected:
   ReproductionRun() { write_room_worlds(folder.path() / "worlds"); }
 
-  /// One start in the apartment: 12 units.
+  /// One start in the apartment: kUnits of them.
   ExperimentOptions options() const {
     ExperimentOptions options;
     options.worlds_folder = folder.path() / "worlds";
@@ -86,9 +87,9 @@ class ReproductionRun : public testing::Test {
 
 TEST_F(ReproductionRun, RunsEveryUnitOnce) {
   const auto asked = run(options());
-  EXPECT_EQ(asked.size(), 12U);
+  EXPECT_EQ(asked.size(), kUnits);
   EXPECT_EQ(asked.front(), "drive") << "all the others need it";
-  EXPECT_EQ(result.finished, 12U);
+  EXPECT_EQ(result.finished, kUnits);
   EXPECT_EQ(result.failed, 0U);
   EXPECT_THAT(table(options()).missing, ElementsAre());
   EXPECT_THAT(run(options()), ElementsAre());
@@ -100,8 +101,8 @@ TEST_F(ReproductionRun, GivesTheSameTableForAnyNumberOfWorkers) {
   one.starts = 2;
   ExperimentOptions three = one;
   three.folder.root = folder.path() / "out-3";
-  EXPECT_EQ(run(one, {}, 1).size(), 36U);
-  EXPECT_EQ(run(three, {}, 3).size(), 36U);
+  EXPECT_EQ(run(one, {}, 1).size(), 3 * kUnits);
+  EXPECT_EQ(run(three, {}, 3).size(), 3 * kUnits);
   EXPECT_EQ(text(one), text(three));
 }
 
@@ -118,17 +119,17 @@ TEST_F(ReproductionRun, AnotherExperimentRunsAgain) {
   run(options());
   ExperimentOptions other = options();
   other.duration_max_s = 30.0;
-  EXPECT_EQ(run(other).size(), 12U) << "the drive, and so what is run on it";
+  EXPECT_EQ(run(other).size(), kUnits) << "the drive, and so what is run on it";
   other.seed = 7;
-  EXPECT_EQ(run(other).size(), 12U);
+  EXPECT_EQ(run(other).size(), kUnits);
   EXPECT_EQ(run(other).size(), 0U);
-  EXPECT_EQ(run(options()).size(), 12U) << "its trajectory was overwritten";
+  EXPECT_EQ(run(options()).size(), kUnits) << "its trajectory was overwritten";
 }
 
 TEST_F(ReproductionRun, AChangedWorldRunsAgain) {
   run(options());
   write_room_worlds(folder.path() / "worlds", 3.25);
-  EXPECT_EQ(run(options()).size(), 12U);
+  EXPECT_EQ(run(options()).size(), kUnits);
   EXPECT_EQ(run(options()).size(), 0U);
 }
 
@@ -152,13 +153,13 @@ TEST_F(ReproductionRun, AnotherVersionRunsAgain) {
 TEST_F(ReproductionRun, ALostOrChangedTrajectoryIsMadeAgainWithItsEpisodes) {
   run(options());
   fs::remove(trajectory());
-  EXPECT_EQ(run(options()).size(), 12U);
+  EXPECT_EQ(run(options()).size(), kUnits);
   std::ofstream(trajectory(), std::ios::app) << "9999,0,0,0,0\n";
-  EXPECT_EQ(run(options()).size(), 12U);
+  EXPECT_EQ(run(options()).size(), kUnits);
 }
 
 TEST_F(ReproductionRun, AFailedUnitLeavesAHoleAndIsTriedAgain) {
-  EXPECT_EQ(run(options(), {"auto-0.5", "throw"}).size(), 12U);
+  EXPECT_EQ(run(options(), {"auto-0.5", "throw"}).size(), kUnits);
   EXPECT_EQ(result.failed, 1U);
   EXPECT_EQ(failures, (std::map<std::string, std::string>{{"apartment-1-auto-0.5", "no room"}}));
   EXPECT_THAT(table(options()).missing, ElementsAre("apartment-1-auto-0.5"));
@@ -169,7 +170,7 @@ TEST_F(ReproductionRun, AFailedUnitLeavesAHoleAndIsTriedAgain) {
 TEST_F(ReproductionRun, AUnitThatEndsItsWorkerCostsItself) {
   const auto asked = run(options(), {"auto-0.5", "abort"});
   EXPECT_EQ(std::ranges::count(asked, "auto-0.5"), 2);
-  EXPECT_EQ(asked.size(), 13U);
+  EXPECT_EQ(asked.size(), kUnits + 1);
   EXPECT_EQ(failures["apartment-1-auto-0.5"], "its worker ended, twice: Aborted");
   EXPECT_THAT(table(options()).missing, ElementsAre("apartment-1-auto-0.5"));
 }
@@ -187,7 +188,7 @@ TEST_F(ReproductionRun, AUnitWhoseWorkerWasKilledIsRunAgain) {
 TEST_F(ReproductionRun, WithoutItsDriveNoEpisodeIsRun) {
   EXPECT_THAT(run(options(), {"drive", "throw"}), ElementsAre("drive"));
   EXPECT_EQ(result.failed, 1U);
-  EXPECT_EQ(table(options()).missing.size(), 12U);
+  EXPECT_EQ(table(options()).missing.size(), kUnits);
 }
 
 TEST_F(ReproductionRun, AStopLosesNothing) {
@@ -197,7 +198,7 @@ TEST_F(ReproductionRun, AStopLosesNothing) {
   EXPECT_THAT(asked, Not(Contains("auto-1")));
   EXPECT_EQ(result.finished, asked.size()) << "what was at work is kept";
   const auto rest = run(options());
-  EXPECT_EQ(rest.size() + asked.size(), 12U);
+  EXPECT_EQ(rest.size() + asked.size(), kUnits);
   EXPECT_THAT(table(options()).missing, ElementsAre());
 }
 
@@ -219,7 +220,8 @@ TEST_F(ReproductionRun, NamesADamagedRecord) {
   run(options());
   std::ofstream(records(), std::ios::app) << R"({"schema":2,"unit":"x"})" << '\n';
   EXPECT_THAT(message_of<InputError>([&] { run(options()); }),
-              testing::AllOf(HasSubstr("records.jsonl: line 13"), HasSubstr("schema 2")));
+              testing::AllOf(HasSubstr("records.jsonl: line " + std::to_string(kUnits + 1)),
+                             HasSubstr("schema 2")));
 }
 
 TEST_F(ReproductionRun, AWorkerNoticesAWorldThatHasChanged) {

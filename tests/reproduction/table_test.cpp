@@ -78,8 +78,10 @@ TEST_F(Reproduction, HasARowForEveryTestInThePapersOrder) {
     if (row.environment == "cafe (25x10)") tests.push_back(row.test);
   }
   EXPECT_THAT(environments, ElementsAre("apartment (19x11)", "bookstore (15x14)", "cafe (25x10)"));
-  EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+auto", "2D", "2D+grid", "2D+grid-3",
-                                 "2D+auto", "2D+random", "2D", "2D+grid", "2D+auto", "3D"));
+  EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+auto", "2D+auto expected", "2D+oracle", "2D",
+                                 "2D+grid", "2D+grid-3", "2D+auto", "2D+auto expected", "2D+random",
+                                 "2D+oracle", "2D", "2D+grid", "2D+auto", "2D+auto expected",
+                                 "2D+oracle", "3D"));
 }
 
 TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameTime) {
@@ -109,6 +111,35 @@ TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameT
   EXPECT_NEAR(best.as_paper_counts_voxels_percent.value(), 50.0, 1e-12);
   EXPECT_NEAR(best.as_paper_counts_gain_percent.value(), 100.0 * (1810.0 / 1210.0 - 1.0), 1e-12);
   EXPECT_EQ(row(made, "cafe", "2D+auto", 1.0).gain, 500.0);
+}
+
+TEST_F(Reproduction, TellsHowFastTheMapGrewAndWhatIsMissingToTheOracle) {
+  for (const int start : {1, 2}) {
+    const std::string drive = "cafe-" + std::to_string(start);
+    EpisodeReport known = episode(1000, 1000);
+    known.summary.growth.add(0.0, 500);
+    known.summary.growth.add(10.0 * start, 850);
+    known.summary.growth.add(50.0, 1000);
+    at(drive + "-auto-expected-0.5").episode = known;
+    known = episode(1000, 800);
+    known.summary.growth.add(0.0, 0);
+    known.summary.growth.add(40.0, 800);
+    at(drive + "-auto-0.5").episode = known;
+  }
+  at("cafe-1-oracle-0.5").episode = episode(1000, 1000);
+  const ReproductionTable made = table();
+  const ResultRow& expected = row(made, "cafe", "2D+auto expected", 0.5);
+  EXPECT_EQ(expected.time_to_50_percent_s, 0.0);
+  EXPECT_EQ(expected.time_to_80_percent_s, 15.0);
+  EXPECT_EQ(expected.time_to_90_percent_s, 50.0);
+  EXPECT_EQ(expected.mean_information,
+            ((500 * 10 + 850 * 40 + 1000 * 50) + (500 * 20 + 850 * 30 + 1000 * 50)) / 200.0);
+  EXPECT_EQ(expected.regret_percent, 0.0);
+  const ResultRow& positive = row(made, "cafe", "2D+auto", 0.5);
+  EXPECT_EQ(positive.time_to_80_percent_s, 40.0);
+  EXPECT_EQ(positive.time_to_90_percent_s, std::nullopt) << "of 1000";
+  EXPECT_NEAR(positive.regret_percent.value(), 20.0, 1e-12) << "at the start that has an oracle";
+  EXPECT_EQ(row(made, "cafe", "2D+oracle", 0.5).regret_percent, 0.0);
 }
 
 TEST_F(Reproduction, ThePapersFiguresStandBesideItsOwnTests) {

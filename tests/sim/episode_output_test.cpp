@@ -20,7 +20,6 @@ EpisodeReport made_episode() {
                     .captures = 5,
                     .voxels = 12'345,
                     .information = 0.1 + 0.2,
-                    .growth = {},
                     .prediction = {2, 3.5, 4, 5, 10.25, 7}};
   report.summary.growth.add(0.0, 0.1);
   report.summary.growth.add(0.2, 0.1 + 0.2);
@@ -57,9 +56,9 @@ TEST(EpisodeReport, TellsHowFastTheMapGrew) {
 }
 
 TEST(EpisodeReport, MissesEveryFigure) {
-  for (const char* key :
-       {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information", "growth",
-        "voxels_as_paper_counts", "information_as_paper_counts", "prediction", "times_ms"}) {
+  for (const char* key : {"world", "mode", "motion_time_s", "seed", "duration_s", "captures",
+                          "voxels", "information", "growth", "voxels_as_paper_counts",
+                          "information_as_paper_counts", "prediction", "times_ms"}) {
     Json json = to_json(made_episode());
     json.erase(key);
     EXPECT_THROW(episode_report_of(json), Json::exception) << key;

@@ -282,8 +282,9 @@ TEST(Episode, RefusesWhatCannotBeRun) {
   options = coarse_options();
   options.start_joints.height_m = 2.0;
   EXPECT_NE(refusal(options), "");
-  EXPECT_EQ(message_of<UsageError>([] { make_camera_mode("clever"); }),
-            "there is no camera mode 'clever': the modes are static, grid, grid-3, auto, random, oracle");
+  EXPECT_EQ(
+      message_of<UsageError>([] { make_camera_mode("clever"); }),
+      "there is no camera mode 'clever': the modes are static, grid, grid-3, auto, random, oracle");
 }
 
 }  // namespace

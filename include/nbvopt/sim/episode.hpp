@@ -65,7 +65,7 @@ struct EpisodeSummary {
   std::uint64_t captures = 0;
   std::uint64_t voxels = 0;
   double information = 0.0;
-  InformationGrowth growth;
+  InformationGrowth growth = {};
   PredictionRecord prediction;
   HazardTable hazards = HazardTable();  ///< learnt, where the gain is expected
 };
