@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 
+#include "cli/calibrate.hpp"
 #include "cli/evaluate.hpp"
 #include "cli/map.hpp"
 #include "cli/query.hpp"
@@ -19,8 +20,9 @@
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_query, set_up_evaluate, set_up_map,   set_up_reproduce,
-                                  set_up_serve, set_up_simulate, set_up_study, set_up_world};
+constexpr std::array kSubcommands{set_up_calibrate, set_up_query,     set_up_evaluate,
+                                  set_up_map,       set_up_reproduce, set_up_serve,
+                                  set_up_simulate,  set_up_study,     set_up_world};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

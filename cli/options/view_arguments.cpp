@@ -19,10 +19,16 @@ void set_gain(SensorOptions& sensor, const RobotArguments& arguments) {
 
 }  // namespace
 
-void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
+void add_robot_file_argument(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--robot", arguments.robot_file,
                  "robot and sensor, a YAML file [the paper's platform]")
       ->type_name("FILE");
+  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
+                   "most threads to use; 0: all cores. Answers do not depend on it");
+}
+
+void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
+  add_robot_file_argument(app, arguments);
   app.add_option("--gain", arguments.gain,
                  "positive: the first unknown voxel is a surface (Eq. 12); expected: surfaces come "
                  "with probabilities, learnt where scans are inserted [as the robot says]")
@@ -32,8 +38,6 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
                  "what an expected gain takes for likely of the unknown: a file that "
                  "simulate wrote by --hazards-out [what the drives of docs/results.md taught]")
       ->type_name("FILE");
-  add_whole_number(app, "--threads", arguments.threads, 0, 1024,
-                   "most threads to use; 0: all cores. Answers do not depend on it");
 }
 
 void add_view_arguments(CLI::App& app, ViewArguments& arguments) {

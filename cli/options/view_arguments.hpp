@@ -26,6 +26,8 @@ struct ViewArguments : RobotArguments {
   std::string counting;  ///< empty: as the robot says
 };
 
+/// The robot's file and the number of threads alone.
+void add_robot_file_argument(CLI::App& app, RobotArguments& arguments);
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments);
 void add_view_arguments(CLI::App& app, ViewArguments& arguments);
 

@@ -22,6 +22,10 @@ void add_world_arguments(CLI::App& app, WorldArguments& arguments) {
                  "a Gazebo world (.world, .sdf), or a mesh: .ply, .obj, .stl, .dae, .off, .gltf, "
                  ".glb (z up; of the last two, y up)")
       ->required();
+  add_world_reading_arguments(app, arguments);
+}
+
+void add_world_reading_arguments(CLI::App& app, WorldArguments& arguments) {
   app.add_option(
          "--model-path", arguments.model_paths,
          "a folder of models, after the world's own and before those of Gazebo's environment; "

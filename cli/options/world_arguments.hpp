@@ -21,6 +21,9 @@ struct WorldArguments {
 
 void add_world_arguments(CLI::App& app, WorldArguments& arguments);
 
+/// Those of them that say how worlds are read, for a command that reads several.
+void add_world_reading_arguments(CLI::App& app, WorldArguments& arguments);
+
 /// Reads the world and prints its warnings.
 World read_world(const WorldArguments& arguments);
 

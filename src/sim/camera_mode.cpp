@@ -1,13 +1,12 @@
 #include "nbvopt/sim/camera_mode.hpp"
 
 #include <array>
-#include <cstdint>
-#include <random>
 #include <string_view>
 #include <utility>
 
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "sim/random_views.hpp"
 
 namespace nbvopt {
 namespace {
@@ -33,28 +32,6 @@ class SearchingCamera : public CameraMode {
 
  private:
   std::unique_ptr<Solver> solver_;
-};
-
-/// Draws views in reach of a request, each as likely as another.
-class RandomViews {
- public:
-  RandomViews(const JointBox& box, std::uint64_t seed) : box_(box) {
-    std::seed_seq seeds{seed, seed >> 32};
-    random_.seed(seeds);
-  }
-
-  JointPosition next() {
-    Eigen::Vector3d q;
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] =
-          box_.min[i] + std::generate_canonical<double, 53>(random_) * (box_.max[i] - box_.min[i]);
-    }
-    return JointPosition::from(q.cwiseMax(box_.min).cwiseMin(box_.max));
-  }
-
- private:
-  JointBox box_;
-  std::mt19937_64 random_;
 };
 
 class RandomCamera : public CameraMode {

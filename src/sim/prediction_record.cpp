@@ -37,6 +37,12 @@ double PredictionRecord::correlation() const {
   return (n * sum_xy - sum_x * sum_y) / std::sqrt(variance_x * variance_y);
 }
 
+double PredictionRecord::slope() const {
+  const auto n = static_cast<double>(steps);
+  const double variance_x = n * sum_xx - sum_x * sum_x;
+  return variance_x > 0.0 ? (n * sum_xy - sum_x * sum_y) / variance_x : kNaN;
+}
+
 double PredictionRecord::bias() const { return sum_y > 0.0 ? sum_x / sum_y - 1.0 : kNaN; }
 
 }  // namespace nbvopt

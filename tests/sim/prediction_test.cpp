@@ -83,12 +83,14 @@ TEST_F(RealisedGain, IsNothingOutOfRange) {
 TEST(PredictionRecord, CorrelatesAsPearsonDoes) {
   PredictionRecord record;
   EXPECT_TRUE(std::isnan(record.correlation()));
+  EXPECT_TRUE(std::isnan(record.slope()));
   for (const auto& [x, y] : {std::pair{1.0, 2.0}, {2.0, 4.0}, {3.0, 3.0}, {4.0, 7.0}}) {
     record.add(x, y);
   }
   // By hand: sxx = 5, syy = 14, sxy = 7.
   EXPECT_NEAR(record.correlation(), 7.0 / std::sqrt(5.0 * 14.0), 1e-12);
   EXPECT_NEAR(record.bias(), 10.0 / 16.0 - 1.0, 1e-12);
+  EXPECT_NEAR(record.slope(), 7.0 / 5.0, 1e-12);
 }
 
 TEST(PredictionRecord, KnowsNothingOfConstants) {

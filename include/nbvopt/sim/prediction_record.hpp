@@ -22,6 +22,10 @@ struct PredictionRecord {
   /// Pearson's; NaN where predictions or realised gains do not vary, or there are less than two.
   double correlation() const;
 
+  /// Of the line that fits realised gains best, by least squares over the predicted ones: below 1
+  /// where high predictions are too high by more than low ones. NaN where they do not vary.
+  double slope() const;
+
   /// By how much predictions are too high, as a share of what was realised; NaN where that is 0.
   double bias() const;
 };

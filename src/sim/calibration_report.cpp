@@ -1,0 +1,67 @@
+#include "sim/calibration_report.hpp"
+
+#include <cmath>
+
+#include "core/number.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
+
+namespace nbvopt {
+namespace {
+
+Json to_json(const PredictionRecord& record) {
+  const auto finite = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  return {{"steps", record.steps},
+          {"bias", finite(record.bias())},
+          {"correlation", finite(record.correlation())},
+          {"slope", finite(record.slope())}};
+}
+
+Json to_json(const PredictionJudgement& judgement) {
+  return {{"chosen", to_json(judgement.chosen)},
+          {"random", to_json(judgement.random)},
+          {"regret", judgement.regret()},
+          {"information", judgement.information}};
+}
+
+std::string figures(const PredictionRecord& record) {
+  return "bias " + decimal(100.0 * record.bias(), 0) + " %, correlation " +
+         decimal(record.correlation(), 3) + ", slope " + decimal(record.slope(), 2);
+}
+
+std::string to_text(const std::string& began_with, const PredictionJudgement& judgement) {
+  return "  " + began_with + ": chosen views " + figures(judgement.chosen) + "; random views " +
+         figures(judgement.random) + "; regret " + decimal(100.0 * judgement.regret(), 1) +
+         " %; information " + decimal(judgement.information, 0) + '\n';
+}
+
+}  // namespace
+
+Json to_json(const Calibration& calibration) {
+  Json drives = Json::array();
+  for (const DriveCalibration& drive : calibration.drives) {
+    drives.push_back({{"world", drive.world},
+                      {"learnt", Json::parse(hazards_json(drive.learnt))},
+                      {"from_nothing", to_json(drive.from_nothing)},
+                      {"left_out", to_json(drive.left_out)}});
+  }
+  return {{"hazards", Json::parse(hazards_json(calibration.hazards))}, {"drives", drives}};
+}
+
+std::string to_text(const Calibration& calibration) {
+  std::string text;
+  for (const DriveCalibration& drive : calibration.drives) {
+    text += drive.world + '\n' + to_text("from nothing", drive.from_nothing) +
+            to_text("from the other worlds", drive.left_out);
+  }
+  text += "hits a metre over all drives:\n";
+  const std::vector<std::string> names = hazard_context_names();
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    double metres = 0.0;
+    for (const DriveCalibration& drive : calibration.drives) metres += drive.learnt.count(c).metres;
+    text += "  " + names[c] + ": " + decimal(calibration.hazards.hazard_per_m(c), 3) + " (" +
+            decimal(metres, 0) + " m)\n";
+  }
+  return text;
+}
+
+}  // namespace nbvopt
