@@ -30,8 +30,27 @@ PanoramaOptions planning_panorama(Counting counting) {
           .layer_spacing = kLayerSpacing};
 }
 
+Transform T_map_base_on_path(const PlanRequest& request) {
+  TimedPose last{0.0, request.T_map_base};
+  for (const TimedPose& next : request.base_path) {
+    if (next.time_s >= request.motion_time_s) {
+      const double span_s = next.time_s - last.time_s;
+      const double part = span_s > 0.0 ? (request.motion_time_s - last.time_s) / span_s : 1.0;
+      Transform between;
+      between.linear() = Eigen::Quaterniond(last.T_map_base.linear())
+                             .slerp(part, Eigen::Quaterniond(next.T_map_base.linear()))
+                             .toRotationMatrix();
+      between.translation() =
+          (1.0 - part) * last.T_map_base.translation() + part * next.T_map_base.translation();
+      return part == 1.0 ? next.T_map_base : between;
+    }
+    last = next;
+  }
+  return last.T_map_base;
+}
+
 MovingMast moving_mast(const PlanRequest& request, const Mast& mast) {
-  return {mast, request.T_map_base, request.base_twist, request.joints};
+  return {mast, T_map_base_on_path(request), request.base_twist, request.joints};
 }
 
 Transform T_map_sensor(const PlanRequest& request, const Mast& mast, const JointPosition& joints) {

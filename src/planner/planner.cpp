@@ -14,6 +14,29 @@
 namespace nbvopt {
 namespace {
 
+void check_path(const PlanRequest& request) {
+  if (!request.base_twist.is_zero()) {
+    throw InputError("base_path tells where the base will be: leave base_twist out");
+  }
+  if (!(request.motion_time_s > 0.0)) {
+    throw InputError(
+        "base_path needs a motion_time_s greater than 0: when it is over, the view is taken");
+  }
+  double last_s = 0.0;
+  for (std::size_t i = 0; i < request.base_path.size(); ++i) {
+    const TimedPose& pose = request.base_path[i];
+    const std::string where = "base_path[" + std::to_string(i) + ']';
+    if (!pose.T_map_base.matrix().allFinite()) {
+      throw InputError(where + ": every number of its pose must be finite");
+    }
+    if (!std::isfinite(pose.time_s) || pose.time_s < last_s || (i > 0 && pose.time_s == last_s)) {
+      throw InputError(where + ".time_s is " + format_number(pose.time_s) +
+                       " s, times must rise from 0 or later");
+    }
+    last_s = pose.time_s;
+  }
+}
+
 void check(const PlanRequest& request) {
   if (!request.T_map_base.matrix().allFinite()) {
     throw InputError("base: every number of its pose must be finite");
@@ -26,6 +49,7 @@ void check(const PlanRequest& request) {
   if (!Eigen::Vector3d(twist.vx_m_s, twist.vy_m_s, twist.wz_rad_s).allFinite()) {
     throw InputError("base_twist: every velocity must be finite");
   }
+  if (!request.base_path.empty()) check_path(request);
 }
 
 PlanStatus plan_status(SolveStatus status) {

@@ -217,6 +217,13 @@ PlanRequest from_message(const v1::PlanRequest& message) {
   if (message.has_base_twist()) {
     request.base_twist = from_message(message.base_twist(), "base_twist");
   }
+  for (int i = 0; i < message.base_path_size(); ++i) {
+    const v1::TimedPose& pose = message.base_path(i);
+    const std::string field = "base_path[" + std::to_string(i) + ']';
+    request.base_path.push_back(
+        {.time_s = needed(pose.has_time_s(), pose.time_s(), field + ".time_s"),
+         .T_map_base = from_message(pose.base(), field + ".base")});
+  }
   if (message.has_min_gain()) request.min_gain = needed(true, message.min_gain(), "min_gain");
   if (message.has_seed()) request.seed = message.seed();
   if (message.has_max_evaluations()) {
@@ -350,6 +357,11 @@ v1::PlanRequest to_message(const PlanRequest& request) {
     twist.set_vx_m_s(request.base_twist.vx_m_s);
     twist.set_vy_m_s(request.base_twist.vy_m_s);
     twist.set_wz_rad_s(request.base_twist.wz_rad_s);
+  }
+  for (const TimedPose& pose : request.base_path) {
+    v1::TimedPose& timed = *message.add_base_path();
+    timed.set_time_s(pose.time_s);
+    *timed.mutable_base()->mutable_pose() = to_message(pose.T_map_base);
   }
   if (request.stop.max_evaluations != StopRule{}.max_evaluations) {
     message.set_max_evaluations(request.stop.max_evaluations);

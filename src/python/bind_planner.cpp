@@ -68,13 +68,17 @@ PlanResult plan(const MapPlanner& self, const py::object& base, const py::object
                 double motion_time_s, const Stage& solver, const Stage& global_solver,
                 const Stage& local_solver, const Stage& polish_solver, double step_pan_rad,
                 double step_tilt_rad, double step_height_m, const py::object& base_twist,
-                double min_gain, const std::optional<std::int64_t>& max_evaluations,
+                const std::vector<std::pair<double, py::object>>& base_path, double min_gain,
+                const std::optional<std::int64_t>& max_evaluations,
                 const std::optional<double>& time_limit_ms, std::int64_t seed, bool trace) {
   PlanRequest request;
   request.stop.deadline = deadline_from(time_limit_ms);
   request.stop.max_evaluations = evaluations_from(max_evaluations);
   request.T_map_base = base_from(base);
   request.base_twist = twist_from(base_twist);
+  for (const auto& [time_s, pose] : base_path) {
+    request.base_path.push_back({.time_s = time_s, .T_map_base = base_from(pose)});
+  }
   request.joints = joint_position_from(joints);
   request.motion_time_s = motion_time_s;
   request.min_gain = min_gain;
@@ -183,8 +187,9 @@ void bind_planner(py::module_& module) {
            py::arg("local_solver") = py::none(), py::arg("polish_solver") = py::none(),
            py::arg("step_pan_rad") = 0.8, py::arg("step_tilt_rad") = 0.0,
            py::arg("step_height_m") = 0.0, py::arg("base_twist") = py::make_tuple(0.0, 0.0, 0.0),
-           py::arg("min_gain") = defaults.min_gain, py::arg("max_evaluations") = py::none(),
-           py::arg("time_limit_ms") = py::none(), py::arg("seed") = 1, py::arg("trace") = false,
+           py::arg("base_path") = py::tuple(), py::arg("min_gain") = defaults.min_gain,
+           py::arg("max_evaluations") = py::none(), py::arg("time_limit_ms") = py::none(),
+           py::arg("seed") = 1, py::arg("trace") = false,
            "A PlanResult: that of `nbvopt query`, to the last bit.\n\n"
            "base: (x, y, yaw) or (x, y, z, yaw). joints: where they are now, (pan, tilt, height).\n"
            "motion_time_s: how long the joints may move; 0 means no limit.\n"
@@ -193,6 +198,8 @@ void bind_planner(py::module_& module) {
            "auto's; \"none\" leaves one out.\n"
            "step_...: of the solver \"grid\"; 0 keeps the joint where it is.\n"
            "base_twist: the base's velocity in its own frame (m/s, m/s, rad/s), which it keeps.\n"
+           "base_path: where the base will be, (seconds from now, base) each, instead of a twist:\n"
+           "the view is taken from where the path leads when the motion time is over.\n"
            "min_gain: with less to be had the answer is to stay, and says no_gain_in_reach.\n"
            "max_evaluations, time_limit_ms: limits of computing; the answer is then the best so\n"
            "far.\n"

@@ -203,6 +203,7 @@ def plan_request(
     motion_time_s: float,
     *,
     base_twist: Optional[Sequence[float]] = None,
+    base_path: Sequence[Tuple[float, BaseLike]] = (),
     search: Union[str, pb.Search, None] = None,
     min_gain: Optional[float] = None,
     seed: Optional[int] = None,
@@ -216,6 +217,8 @@ def plan_request(
     joints: where they are now, (pan, tilt, height).
     motion_time_s: how long the joints may move; 0 means no limit.
     base_twist: (vx, vy, wz) of the base in its own frame, m/s and rad/s; at rest when not given.
+    base_path: where the base will be, (seconds from now, base) each, instead of a twist: the view
+        is taken from where the path leads when the motion time is over.
     search: a solver's name, or a Search that composes one; "auto" when not given.
     min_gain: with less to be had the answer is to stay; 1 when not given.
     max_evaluations, time_limit_ms: limits of computing, after which the best so far is answered.
@@ -225,6 +228,7 @@ def plan_request(
         joints=_joints(joints),
         motion_time_s=motion_time_s,
         base_twist=None if base_twist is None else _base_twist(base_twist),
+        base_path=[pb.TimedPose(time_s=time_s, base=_base(pose)) for time_s, pose in base_path],
         search=pb.Search(solver=search) if isinstance(search, str) else search,
         min_gain=min_gain,
         seed=seed,

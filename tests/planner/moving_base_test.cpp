@@ -1,13 +1,20 @@
 // Plans of a base that drives on while the joints move.
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <random>
 
+#include "nbvopt/core/error.hpp"
 #include "planner/planner_world.hpp"
+#include "support/error_message.hpp"
 #include "support/numbers.hpp"
 
 namespace nbvopt::test {
 namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 PlanRequest driving_request(const BaseTwist& base_twist, double motion_time_s = 1.0) {
   PlanRequest request = request_at(kMiddle, motion_time_s);
@@ -53,6 +60,63 @@ TEST(MovingBase, DiffersFromOneAtRestAsPredicted) {
   const ViewGain from_there = world.view(there, result.joints);
   EXPECT_NEAR(from_there.gain, result.view.gain, 1e-9 * result.view.gain);
   EXPECT_NE(world.view(at_rest, result.joints).gain, result.view.gain);
+}
+
+/// A request whose base is 1 m ahead after a second and turned to the left after two.
+PlanRequest path_request(double motion_time_s) {
+  PlanRequest request = request_at(kMiddle, motion_time_s);
+  const Transform ahead = request.T_map_base * base_pose(1.0, 0.0, 0.0, 0.0);
+  request.base_path = {
+      {0.0, request.T_map_base}, {1.0, ahead}, {2.0, ahead * base_pose(0.0, 0.0, 0.0, 0.5 * kPi)}};
+  return request;
+}
+
+TEST(MovingBase, FollowsItsPathUntilTheViewIsTaken) {
+  const Transform start = request_at(kMiddle, 1.0).T_map_base;
+  const auto expect_at = [&](double motion_time_s, const Transform& from_start) {
+    EXPECT_TRUE(T_map_base_on_path(path_request(motion_time_s)).isApprox(start * from_start, 1e-12))
+        << motion_time_s;
+  };
+  expect_at(0.25, base_pose(0.25, 0.0, 0.0, 0.0));
+  expect_at(1.0, base_pose(1.0, 0.0, 0.0, 0.0));
+  expect_at(1.5, base_pose(1.0, 0.0, 0.0, 0.25 * kPi));
+  expect_at(9.0, base_pose(1.0, 0.0, 0.0, 0.5 * kPi));
+  PlanRequest later = path_request(0.5);
+  later.base_path.erase(later.base_path.begin());
+  EXPECT_TRUE(T_map_base_on_path(later).isApprox(start * base_pose(0.5, 0.0, 0.0, 0.0), 1e-12))
+      << "it comes from where it is";
+}
+
+TEST(MovingBase, IsJudgedWhereItsPathLeads) {
+  const World world(free_cube(), 3.0);
+  const PlanRequest request = path_request(0.5);
+  const auto grid = make_solver("grid", {.grid_steps = {0.4, 0.25, 0.05}});
+  const PlanResult result = world.planner().plan(request, *grid);
+  PlanRequest there = request;
+  there.T_map_base = T_map_base_on_path(request);
+  there.base_path.clear();
+  const PlanResult from_there = world.planner().plan(there, *grid);
+  EXPECT_EQ(result.joints, from_there.joints);
+  EXPECT_EQ(result.view.gain, from_there.view.gain);
+  EXPECT_EQ(result.T_map_base.matrix(), there.T_map_base.matrix());
+  EXPECT_EQ(result.current.gain, from_there.current.gain) << "staying moves with the base";
+}
+
+TEST(MovingBase, RefusesPathsThatLeadNowhere) {
+  const World world(free_cube(), 3.0);
+  const auto message = [&](const auto& spoil) {
+    PlanRequest request = path_request(0.5);
+    spoil(request);
+    return message_of<InputError>([&] { world.planner().plan(request, *pan_grid(0.5)); });
+  };
+  EXPECT_THAT(message([](auto& r) { r.base_twist.vx_m_s = 0.1; }), HasSubstr("leave base_twist"));
+  EXPECT_THAT(message([](auto& r) { r.motion_time_s = 0.0; }), HasSubstr("needs a motion_time_s"));
+  EXPECT_THAT(message([](auto& r) { r.base_path[2].time_s = 1.0; }),
+              HasSubstr("base_path[2].time_s is 1 s, times must rise"));
+  EXPECT_THAT(message([](auto& r) { r.base_path[0].time_s = -1.0; }),
+              HasSubstr("base_path[0].time_s is -1 s"));
+  EXPECT_THAT(message([](auto& r) { r.base_path[1].T_map_base(0, 3) = kNaN; }),
+              HasSubstr("base_path[1]: every number"));
 }
 
 TEST(MovingBase, IsNeverWorseThanStaying) {

@@ -31,6 +31,7 @@ TEST(Messages, KeepAPoseToTheLastBit) {
 TEST(Messages, KeepAPlanRequest) {
   PlanRequest request = test::small_request();
   request.base_twist = {0.1, 0.2, 0.3};
+  request.base_path = {{0.5, test::scan_pose(5)}};
   request.min_gain = 2.5;
   request.seed = 77;
   request.stop.max_evaluations = 99;
@@ -39,6 +40,9 @@ TEST(Messages, KeepAPlanRequest) {
   EXPECT_EQ(same.joints, request.joints);
   EXPECT_EQ(same.motion_time_s, request.motion_time_s);
   EXPECT_EQ(same.base_twist, request.base_twist);
+  ASSERT_EQ(same.base_path.size(), 1U);
+  EXPECT_EQ(same.base_path[0].time_s, 0.5);
+  EXPECT_EQ(same.base_path[0].T_map_base.matrix(), test::scan_pose(5).matrix());
   EXPECT_EQ(same.min_gain, 2.5);
   EXPECT_EQ(same.seed, 77U);
   EXPECT_EQ(same.stop.max_evaluations, 99);
@@ -170,6 +174,9 @@ TEST(Messages, NameWhatAPlanLacks) {
       {[](auto& r) { r.clear_motion_time_s(); }, "motion_time_s is not set"},
       {[](auto& r) { r.set_motion_time_s(kNaN); }, "motion_time_s is nan"},
       {[](auto& r) { r.mutable_base_twist()->set_vx_m_s(1); }, "base_twist.vy_m_s is not set"},
+      {[](auto& r) { *r.add_base_path()->mutable_base() = r.base(); },
+       "base_path[0].time_s is not set"},
+      {[](auto& r) { r.add_base_path()->set_time_s(1); }, "base_path[0].base"},
       {[](auto& r) { r.set_min_gain(kNaN); }, "min_gain is nan"},
       {[](auto& r) { r.set_max_evaluations(0); }, "max_evaluations is 0"},
   };

@@ -482,6 +482,14 @@ class PlanTest(BindingsTest):
                 expected = cli_query("--motion-time", "1", *arguments)
                 self.assert_same_answer(self.plan(**options), expected)
 
+    def test_path_of_the_base_leads_to_where_the_view_is_taken(self):
+        x, y, yaw = BASE
+        path = [(0.0, BASE), (2.0, (x + 0.4, y, yaw))]
+        answer = self.plan(1.0, base_path=path)
+        np.testing.assert_allclose(answer.T_map_base[:3, 3], (x + 0.2, y, 0.0), atol=1e-12)
+        with self.assertRaisesRegex(ValueError, r"base_path\[1\].time_s is 0 s, times must rise"):
+            self.plan(1.0, base_path=[path[0], path[0]])
+
     def test_answer_explains_itself(self):
         answer = self.plan(0.5)
         self.assertEqual(answer.status, "optimal_within_tolerance")

@@ -256,6 +256,11 @@ class PlanTest(ClientTest):
         np.testing.assert_allclose(self.robot.T_map_sensor, matrix(plan.sensor), atol=1e-12)
         self.assertGreater(np.linalg.norm((self.robot.T_map_sensor - before)[:2, 3]), 0.1)
 
+    def test_path_of_the_base_leads_to_where_the_view_is_taken(self):
+        path = [(0.5, (0.1, 0.2, 0.3)), (1.5, (0.3, 0.2, 0.3))]
+        plan = self.planner.plan(self.robot.base, self.robot.joints, 1.0, base_path=path)
+        np.testing.assert_allclose(matrix(plan.base)[:2, 3], (0.2, 0.2), atol=1e-12)
+
     def test_stream_answers_each_state(self):
         states = queue.Queue()
         answers = self.planner.plan_stream(iter(states.get, None))

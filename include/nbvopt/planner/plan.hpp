@@ -14,10 +14,20 @@
 
 namespace nbvopt {
 
+/// Where the base will be at a time.
+struct TimedPose {
+  double time_s = 0.0;  ///< from now
+  Transform T_map_base = Transform::Identity();
+};
+
 /// One question. Born with NaN where there is no sensible default.
 struct PlanRequest {
   Transform T_map_base = Transform::Identity();  ///< where the base is now
-  BaseTwist base_twist;        ///< its velocity, which it keeps until the joints have arrived
+  BaseTwist base_twist;  ///< its velocity, which it keeps until the joints have arrived
+  /// Where the base will be, if its driver knows: times rise from 0 or later, the base comes from
+  /// T_map_base and stays where the path ends. The view is then taken when the motion time, which
+  /// must not be 0, is over, from where the path leads by then. Not together with a twist.
+  std::vector<TimedPose> base_path;
   JointPosition joints;        ///< where the joints are now
   double motion_time_s = 0.0;  ///< the joints' travel time, t of Algorithm 2; 0: no limit
   double min_gain = 1.0;       ///< below it the planner says that there is nothing to gain
@@ -84,7 +94,12 @@ struct PlanResult {
 /// sensor's own density, or rays on a voxel could not be counted.
 PanoramaOptions planning_panorama(Counting counting);
 
-/// The mast of a request's robot on its moving base: what turns q into a sensor pose.
+/// Where a request's path has the base when the motion time is over, between two poses on the
+/// straight way; T_map_base without a path.
+Transform T_map_base_on_path(const PlanRequest& request);
+
+/// The mast of a request's robot on its moving base: what turns q into a sensor pose. On a path it
+/// rests where the view will be taken.
 MovingMast moving_mast(const PlanRequest& request, const Mast& mast);
 
 /// The optical frame of a request's robot once its joints have arrived at these.
