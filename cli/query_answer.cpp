@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "nbvopt/gain/hazard_file.hpp"
+
 namespace nbvopt {
 namespace {
 
@@ -104,6 +106,7 @@ Json to_json(const QueryAnswer& answer) {
   if (!answer.result.request.base_twist.is_zero()) {
     json["base_on_arrival"] = base_json(result.T_map_base);
   }
+  if (result.hazards) json["hazards"] = Json::parse(hazards_json(*result.hazards));
   if (answer.remote) {
     json["server"] = answer.remote->server;
     json["call_ms"] = answer.remote->call_ms;
@@ -131,6 +134,13 @@ std::string to_text(const QueryAnswer& answer) {
   text += line("sees    %d rays end unknown (gain %.1f), %d occupied (gain %.1f), %d free",
                result.view.unknown_rays, result.view.unknown_gain, result.view.occupied_rays,
                result.view.occupied_gain, result.view.free_rays);
+  if (result.hazards) {
+    double metres = 0.0;
+    for (std::size_t c = 0; c < HazardTable::kContexts; ++c) {
+      metres += result.hazards->count(c).metres;
+    }
+    text += line("unknown judged by what %.0f m of rays met, prior included", metres);
+  }
   text += "why     " + to_string(result.status) + ": " + result.message + '\n';
   if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';
   text += limit_s > 0.0 ? line("move    %.2f s of %.2f s", result.move_time_s, limit_s)

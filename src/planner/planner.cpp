@@ -130,6 +130,7 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   result.solver = solver.name();
   result.seed = request.seed;
   result.map_version = grid_->version();
+  if (sensor_.gain == GainKind::expected) result.hazards = hazards_;
   result.search_time_ms =
       std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
   return result;

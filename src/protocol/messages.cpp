@@ -10,6 +10,7 @@
 #include "core/enum_names.hpp"
 #include "core/field_check.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/map/depth_image.hpp"
 #include "protocol/limit_error.hpp"
 
@@ -55,6 +56,30 @@ constexpr auto kFormats = std::to_array<EnumName<MapFormat, v1::MapFormat>>({
     {MapFormat::colour_ot, v1::MAP_FORMAT_COLOUR_OT},
     {MapFormat::colour_ply, v1::MAP_FORMAT_COLOUR_PLY},
 });
+
+/// None where the gain is not expected.
+std::optional<HazardTable> hazards_from(const v1::PlanReply& reply) {
+  if (reply.hazards().empty()) return std::nullopt;
+  HazardTable hazards;
+  const std::vector<std::string> names = hazard_context_names();
+  for (const v1::HazardCount& count : reply.hazards()) {
+    const auto context = std::ranges::find(names, count.context());
+    if (context == names.end()) continue;  // of a newer server
+    hazards.set(static_cast<std::size_t>(context - names.begin()),
+                {.hits = count.hits(), .metres = count.metres()});
+  }
+  return hazards;
+}
+
+void add_hazards(const HazardTable& hazards, v1::PlanReply& reply) {
+  const std::vector<std::string> names = hazard_context_names();
+  for (std::size_t context = 0; context < names.size(); ++context) {
+    v1::HazardCount& count = *reply.add_hazards();
+    count.set_context(names[context]);
+    count.set_hits(hazards.count(context).hits);
+    count.set_metres(hazards.count(context).metres);
+  }
+}
 
 constexpr std::size_t kPointBytes = 3 * sizeof(float);
 
@@ -257,6 +282,7 @@ PlanResult from_message(const v1::PlanReply& reply) {
   result.solver = reply.solver();
   result.seed = reply.seed();
   result.map_version = reply.map_version();
+  result.hazards = hazards_from(reply);
   result.warnings = {reply.warnings().begin(), reply.warnings().end()};
   return result;
 }
@@ -388,6 +414,7 @@ v1::PlanReply to_message(const PlanResult& result) {
   reply.set_solver(result.solver);
   reply.set_seed(result.seed);
   reply.set_map_version(result.map_version);
+  if (result.hazards) add_hazards(*result.hazards, reply);
   for (const std::string& warning : result.warnings) reply.add_warnings(warning);
   return reply;
 }

@@ -102,6 +102,8 @@ TEST_F(CommandLine, QueryTakesTheExpectedGain) {
   const json expected = nbvopt_json(json_query(map_file, {"--gain", "expected"}));
   EXPECT_GT(expected["gain"], 0.0);
   EXPECT_LT(expected["gain"], positive["gain"]);
+  EXPECT_EQ(expected["hazards"]["contexts"]["free_frontier"]["metres"], 2.0) << "what ships";
+  EXPECT_FALSE(positive.contains("hazards"));
   // The robot's file says so, too, and the command line wins.
   const std::string robot = folder.write("expected.yaml", "sensor:\n  gain: expected\n");
   EXPECT_EQ(nbvopt_json(json_query(map_file, {"--robot", robot}))["gain"], expected["gain"]);

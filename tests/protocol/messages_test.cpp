@@ -60,6 +60,7 @@ TEST(Messages, KeepAnAnswer) {
   result.move_time_s = 0.4;
   result.box = {.min = {0, 1, 2}, .max = {3, 4, 5}};
   result.active_bounds = {"tilt_min"};
+  result.hazards = HazardTable::uniform(0.25);
   result.evaluations = 12;
   result.surrogate_evaluations = 34;
   result.search_time_ms = 5.5;
@@ -79,6 +80,7 @@ TEST(Messages, KeepAnAnswer) {
   EXPECT_EQ(same.box.min, result.box.min);
   EXPECT_EQ(same.box.max, result.box.max);
   EXPECT_EQ(same.active_bounds, result.active_bounds);
+  EXPECT_EQ(same.hazards, result.hazards);
   EXPECT_EQ(same.evaluations, result.evaluations);
   EXPECT_EQ(same.surrogate_evaluations, result.surrogate_evaluations);
   EXPECT_EQ(same.search_time_ms, result.search_time_ms);

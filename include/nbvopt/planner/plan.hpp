@@ -9,6 +9,7 @@
 
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/gain/gain_model.hpp"
+#include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/gain/panorama.hpp"
 #include "nbvopt/mast/moving_mast.hpp"
 
@@ -85,6 +86,9 @@ struct PlanResult {
   std::string solver;
   std::uint64_t seed = 0;
   std::uint64_t map_version = 0;
+  /// What an expected gain took for likely of the unknown, and how much it was learnt from; none
+  /// where the gain is not.
+  std::optional<HazardTable> hazards;
   std::vector<std::string> warnings;
   std::vector<TracePoint> trace;  ///< every evaluation in order, where the request asks for it
 };
