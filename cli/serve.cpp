@@ -158,6 +158,7 @@ void set_up_serve(CLI::App& app) {
              "how often, while the map changes");
   add_access(*serve, options->server);
   serve->option_defaults()->group("How it works");
+  options->robot.default_gain = GainKind::expected;
   add_robot_arguments(*serve, options->robot);
   serve->add_option("--log-level", options->log_level, "debug, info, warning or error")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))

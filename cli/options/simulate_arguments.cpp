@@ -81,6 +81,7 @@ void add_camera(CLI::App& simulate, SimulateOptions& options) {
   add_number(simulate, "--resolution", options.simulation.resolution_m, "M", "of the map's voxels");
   add_whole_number(simulate, "--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of exploration, noise, and modes that draw random numbers");
+  options.robot.default_gain = GainKind::expected;
   add_robot_arguments(simulate, options.robot);
 }
 

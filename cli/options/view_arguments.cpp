@@ -31,7 +31,8 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
   add_robot_file_argument(app, arguments);
   app.add_option("--gain", arguments.gain,
                  "positive: the first unknown voxel is a surface (Eq. 12); expected: surfaces come "
-                 "with probabilities, learnt where scans are inserted [as the robot says]")
+                 "with probabilities, learnt where scans are inserted [as the robot says, or " +
+                     to_string(arguments.default_gain) + "]")
       ->check(CLI::IsMember(enum_names<GainKind>()))
       ->type_name("NAME");
   app.add_option("--hazards", arguments.hazards_file,
@@ -60,7 +61,9 @@ ThreadLimit::ThreadLimit(const RobotArguments& arguments) {
 }
 
 Robot make_robot(const RobotArguments& arguments) {
-  Robot robot = arguments.robot_file.empty() ? Robot{} : read_robot(arguments.robot_file);
+  Robot robot;
+  robot.sensor.gain = arguments.default_gain;
+  if (!arguments.robot_file.empty()) robot = read_robot(arguments.robot_file, robot);
   set_gain(robot.sensor, arguments);
   return robot;
 }

@@ -16,7 +16,8 @@ namespace nbvopt {
 /// What every command that has a robot asks for.
 struct RobotArguments {
   std::string robot_file;    ///< empty: the paper's platform
-  std::string gain;          ///< empty: as the robot says
+  GainKind default_gain = GainKind::positive;  ///< where neither `gain` nor the robot says
+  std::string gain;                            ///< empty: as the robot says
   std::string hazards_file;  ///< of an expected gain; empty: nothing was learnt
   std::int64_t threads = 0;
 };
@@ -28,6 +29,7 @@ struct ViewArguments : RobotArguments {
 
 /// The robot's file and the number of threads alone.
 void add_robot_file_argument(CLI::App& app, RobotArguments& arguments);
+/// Commands that learn from scans have the expected gain by default.
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments);
 void add_view_arguments(CLI::App& app, ViewArguments& arguments);
 

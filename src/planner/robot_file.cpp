@@ -47,12 +47,12 @@ void write_block(std::ostream& out, const Options& options) {
 
 }  // namespace
 
-Robot read_robot(const std::filesystem::path& path) {
-  return parse_robot(read_text_file(path), path.string());
+Robot read_robot(const std::filesystem::path& path, const Robot& defaults) {
+  return parse_robot(read_text_file(path), path.string(), defaults);
 }
 
-Robot parse_robot(const std::string& yaml, const std::string& name) {
-  Robot robot;
+Robot parse_robot(const std::string& yaml, const std::string& name, const Robot& defaults) {
+  Robot robot = defaults;
   KeyCheck blocks({block_name(robot.sensor), block_name(robot.mast)}, "block");
   for (const auto& [block, node] : entries(parse_yaml(yaml, name), name)) {
     blocks.take(block, name, name + ": block '" + block + "'");

@@ -266,7 +266,7 @@ TEST_F(Serve, LetsOnlyThoseInFromElsewhereWhoHaveACertificate) {
 
 TEST_F(Serve, AnswersQueriesToTheLastBit) {
   const std::string map = datasets_dir() / "office_partial.ot";
-  const Served served(server, {"serve", map, "--listen", server.socket()});
+  const Served served(server, {"serve", map, "--gain", "positive", "--listen", server.socket()});
   for (const Arguments& more :
        {Arguments{}, Arguments{"--seed", "7", "--solver", "nlopt:crs2", "--max-evals", "200"},
         Arguments{"--base-velocity", "0.2,0,0.3"}, Arguments{"--solver", "grid"},

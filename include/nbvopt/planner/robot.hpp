@@ -18,13 +18,13 @@ struct Robot {
 };
 
 /// Reads a YAML file with the blocks `sensor` and `mast`, whose keys are the fields of the structs
-/// above with their units; what is left out keeps its default. Throws InputError that names file,
-/// key and value: an unknown key (with the nearest right one), a wrong type, a value that fails
-/// its check.
-Robot read_robot(const std::filesystem::path& path);
+/// above with their units; what is left out is as `defaults` have it. Throws InputError that names
+/// file, key and value: an unknown key (with the nearest right one), a wrong type, a value that
+/// fails its check.
+Robot read_robot(const std::filesystem::path& path, const Robot& defaults = {});
 
 /// The same from text; `name` stands for the file in messages.
-Robot parse_robot(const std::string& yaml, const std::string& name);
+Robot parse_robot(const std::string& yaml, const std::string& name, const Robot& defaults = {});
 
 /// The whole robot as such a file.
 std::string to_yaml(const Robot& robot);
