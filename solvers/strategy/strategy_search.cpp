@@ -1,6 +1,7 @@
 #include "solvers/strategy/strategy_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "solvers/answer.hpp"
@@ -13,6 +14,9 @@ namespace {
 
 /// Ends of local searches nearer than this share of the box's width are one optimum.
 constexpr double kSameOptimum = 0.01;
+
+/// Until so many were judged, little is known of the surrogate's error.
+constexpr std::size_t kFewestJudged = 3;
 
 /// What each stage may spend of an evaluation limit that is too tight for all; the polish has the
 /// rest.
@@ -36,7 +40,7 @@ StrategySearch::StrategySearch(const StrategyOptions& options, const StrategySta
 }
 
 SolveResult StrategySearch::run() {
-  judge(request_.start);
+  best_.offer(request_.start, objective_.value(request_.start));
   if (objective_.box().lower == objective_.box().upper) return result();
   judge(climb(survey()));
   polish();
@@ -94,10 +98,7 @@ std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<C
     for (const Candidate& start : starts) {
       const std::int64_t left = limit - (surrogate_->evaluations() - before);
       if (must_end() || left < 1) break;
-      const ShiftedPeriod shifted(*surrogate_, start.x);
-      const SolveResult end = stages_.local->solve(
-          shifted, stage_request(start.x, std::min(left, options_.local_evaluations)));
-      ends.push_back({shifted.wrapped(end.best), end.value, end.status});
+      ends.push_back(climb(start, std::min(left, options_.local_evaluations)));
     }
     note_stage(surrogate_->evaluations() - before, "of local " + stages_.local->name() + " from " +
                                                        std::to_string(ends.size()) +
@@ -106,18 +107,38 @@ std::vector<StrategySearch::Candidate> StrategySearch::climb(const std::vector<C
   return best_separate(ends.empty() ? starts : ends);
 }
 
+StrategySearch::Candidate StrategySearch::climb(const Candidate& start,
+                                                std::int64_t max_evaluations) {
+  const std::int64_t last = surrogate_->evaluations() + max_evaluations;
+  Candidate end = start;
+  end.status = SolveStatus::stalled;
+  while (end.status == SolveStatus::stalled && surrogate_->evaluations() < last && !must_end()) {
+    const ShiftedPeriod shifted(*surrogate_, end.x);
+    const SolveResult found =
+        stages_.local->solve(shifted, stage_request(end.x, last - surrogate_->evaluations()));
+    const bool is_higher = found.value > end.value;
+    end.status =
+        found.status == SolveStatus::stalled && !is_higher ? SolveStatus::converged : found.status;
+    if (is_higher) end = {shifted.wrapped(found.best), found.value, end.status};
+  }
+  return end;
+}
+
 void StrategySearch::judge(const std::vector<Candidate>& candidates) {
   must_end();  // the last local search may have been cut short
   reserved_evaluations_ = 0;
+  double error = 0.0;
+  std::size_t judged = 0;
   for (const Candidate& candidate : candidates) {
-    const bool is_first = &candidate == &candidates.front();
-    if (!is_first && must_end()) break;
-    judge(candidate.x);
-    if (is_first || best_.point() == candidate.x) search_status_ = candidate.status;
+    if (judged > 0 && must_end()) break;
+    if (judged >= kFewestJudged && candidate.value + error < best_.value()) break;
+    const double value = objective_.value(candidate.x);
+    best_.offer(candidate.x, value);
+    if (judged == 0 || best_.point() == candidate.x) search_status_ = candidate.status;
+    error = std::max(error, std::abs(value - candidate.value));
+    ++judged;
   }
 }
-
-void StrategySearch::judge(const Point& x) { best_.offer(x, objective_.value(x)); }
 
 void StrategySearch::polish() {
   if (!stages_.polish || must_end()) return;

@@ -44,9 +44,15 @@ class StrategySearch {
   /// The best separate points of the surrogate that the local solver reached.
   std::vector<Candidate> climb(const std::vector<Candidate>& starts);
 
-  /// Has the objective evaluate the candidates, the first even where a limit ends the search.
+  /// The local search from one start. One that gives up goes on from where it is, with nothing
+  /// remembered; where even that finds nothing higher, its line search has met the precision of
+  /// the surrogate, and the end is a summit.
+  Candidate climb(const Candidate& start, std::int64_t max_evaluations);
+
+  /// Has the objective evaluate candidates, best first, as long as one of them may be the best: by
+  /// its surrogate and the largest error of the surrogate seen. The first even where a limit ends
+  /// the search.
   void judge(const std::vector<Candidate>& candidates);
-  void judge(const Point& x);
 
   std::vector<Candidate> best_separate(const std::vector<Candidate>& candidates) const;
 

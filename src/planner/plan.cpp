@@ -25,9 +25,7 @@ std::string to_string(PlanStatus value) { return std::string(enum_name(value)); 
 std::string to_string(EvaluationKind value) { return std::string(enum_name(value)); }
 
 PanoramaOptions planning_panorama(Counting counting) {
-  constexpr double kLayerSpacing = 6.0;
-  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0,
-          .layer_spacing = kLayerSpacing};
+  return {.ray_spacing = counting == Counting::per_voxel ? 1.0 : 2.0};
 }
 
 Transform T_map_base_on_path(const PlanRequest& request) {

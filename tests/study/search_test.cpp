@@ -21,9 +21,9 @@ StudySearch set(StudySearch search, const FieldSetting& setting) {
 TEST(StudySearch, IsTheSameJsonAsEver) {
   EXPECT_EQ(to_json(StudySearch{}).dump(),
             R"({"solver":"auto","evaluator":"exact","global":"nlopt:direct-l",)"
-            R"("local":"nlopt:lbfgs","polish":"nlopt:cobyla","line_points":7.0,)"
-            R"("global_evaluations":20.0,"local_starts":5.0,"start_separation":0.08,)"
-            R"("local_tolerance":0.1,"local_evaluations":60.0,"polish_candidates":2.0,)"
+            R"("local":"nlopt:lbfgs","polish":"nlopt:cobyla","line_points":15.0,)"
+            R"("global_evaluations":20.0,"local_starts":12.0,"start_separation":0.05,)"
+            R"("local_tolerance":0.5,"local_evaluations":60.0,"polish_candidates":12.0,)"
             R"("polish_tolerance":0.02,"polish_step":1.0,"polish_evaluations":60.0})");
   EXPECT_EQ(to_json(set({}, {"solver", "grid"})).dump(),
             R"({"solver":"grid","evaluator":"exact","step_pan_rad":0.8,"step_tilt_rad":0.0,)"

@@ -93,9 +93,9 @@ struct PlanResult {
   std::vector<TracePoint> trace;  ///< every evaluation in order, where the request asks for it
 };
 
-/// The panorama that searches see: half as dense as the sensor's rays, and few layers, since what
-/// finer ones find is not better once it was polished on the exact gain. Per voxel it has the
-/// sensor's own density, or rays on a voxel could not be counted.
+/// The panorama that searches see: half as dense as the sensor's rays, since what a finer one finds
+/// is not better once it was polished on the exact gain. Per voxel it has the sensor's own density,
+/// or rays on a voxel could not be counted.
 PanoramaOptions planning_panorama(Counting counting);
 
 /// Where a request's path has the base when the motion time is over, between two poses on the

@@ -19,17 +19,18 @@ struct StrategyOptions {
 
   /// Points sampled inside each line along coordinate 0 from face to face, through corners and
   /// through centres of edges, faces and box; these are sampled as well.
-  int line_points = 7;
+  int line_points = 15;
   std::int64_t global_evaluations = 20;
 
-  int local_starts = 5;
+  int local_starts = 12;
   /// Local starts are this far apart or farther: a share of the box's width in some coordinate.
-  double start_separation = 0.08;
-  double local_tolerance = 0.1;         ///< as Search::tolerance
+  double start_separation = 0.05;
+  double local_tolerance = 0.5;         ///< as Search::tolerance
   std::int64_t local_evaluations = 60;  ///< of each start
 
-  /// Local optima that the objective judges; the polish starts from the best.
-  int polish_candidates = 2;
+  /// The most local optima that the objective judges; the polish starts from the best. Fewer where
+  /// by the errors of the surrogate on those judged the others cannot be the best.
+  int polish_candidates = 12;
   double polish_tolerance = 0.02;  ///< as Search::tolerance
   double polish_step = 1.0;        ///< as Search::initial_step
   std::int64_t polish_evaluations = 60;

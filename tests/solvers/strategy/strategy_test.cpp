@@ -158,8 +158,8 @@ TEST(Strategy, SearchesOnTheSurrogateAndPolishesOnTheObjective) {
   EXPECT_EQ(result.evaluations, static_cast<std::int64_t>(problem.records().size()));
   EXPECT_EQ(result.surrogate_evaluations, static_cast<std::int64_t>(of_surrogate.size()));
   EXPECT_THAT(result.message,
-              AllOf(HasSubstr("27 samples"), HasSubstr("of global nlopt:direct-l"),
-                    HasSubstr("of local nlopt:lbfgs from 5 starts"), HasSubstr("nlopt:cobyla")));
+              AllOf(HasSubstr("51 samples"), HasSubstr("of global nlopt:direct-l"),
+                    HasSubstr("of local nlopt:lbfgs from 12 starts"), HasSubstr("nlopt:cobyla")));
 }
 
 void expect_no_point_twice(const std::vector<Record>& records) {
@@ -372,6 +372,96 @@ TEST(Strategy, IsNeverWorseThanTheStartWhateverTheSurrogateSays) {
     EXPECT_GE(result.value, problem.value(start));
     EXPECT_GT(result.value, kTop - 1e-3) << "the polish starts from the best, here the start";
   }
+}
+
+/// Five summits along a line; the surrogate takes each for what it is but for `flattery`, which it
+/// adds to all but the best one.
+class Flattering final : public Objective {
+ public:
+  explicit Flattering(double flattery) : surrogate_(flattery) {}
+
+  const Box& box() const override { return surrogate_.box(); }
+  double value(const Point& x) const override { return Summits(0.0).value(x); }
+  const Objective* surrogate() const override { return &surrogate_; }
+
+ private:
+  class Summits final : public Objective {
+   public:
+    explicit Summits(double flattery) : flattery_(flattery) {}
+    const Box& box() const override { return box_; }
+    bool has_gradient() const override { return true; }
+    double value(const Point& x) const override {
+      Point gradient;
+      return value_and_gradient(x, gradient);
+    }
+    double value_and_gradient(const Point& x, Point& gradient) const override {
+      double value = 0.0;
+      gradient.setZero(1);
+      for (int i = 0; i < 5; ++i) {
+        const double top = i == 4 ? 10.0 : 9.0 - 0.1 * i + flattery_;
+        const double away = (x[0] - (1.0 + 2.0 * i)) / 0.4;
+        const double term = top * std::exp(-0.5 * away * away);
+        value += term;
+        gradient[0] -= term * away / 0.4;
+      }
+      return value;
+    }
+
+   private:
+    double flattery_;
+    Box box_{Point::Zero(1), Point::Constant(1, 10.0)};
+  };
+
+  Summits surrogate_;
+};
+
+TEST(Strategy, JudgesOnAsLongAsTheSurrogateMayErrAsMuchAsItDid) {
+  StrategyOptions options;
+  options.polish.clear();
+  // The surrogate ranks the best summit fifth, and shows by the first how much it errs.
+  const Flattering misleading(2.0);
+  EXPECT_NEAR(solve(misleading, request_from(Point::Zero(1)), options).value, 10.0, 0.01);
+  options.polish_candidates = 2;
+  EXPECT_LT(solve(misleading, request_from(Point::Zero(1)), options).value, 9.5);
+}
+
+TEST(Strategy, JudgesNoMoreThanItMustWhereTheSurrogateIsRight) {
+  StrategyOptions options;
+  options.polish.clear();
+  const Flattering right(0.0);
+  const SolveResult result = solve(right, request_from(Point::Zero(1)), options);
+  EXPECT_NEAR(result.value, 10.0, 0.01);
+  EXPECT_EQ(result.evaluations, 1 + 3) << "the start and three summits of five";
+}
+
+/// A summit, to the precision of a coarse number: no line search ends within its tolerance.
+class Coarse final : public Objective {
+ public:
+  const Box& box() const override { return box_; }
+  const Objective* surrogate() const override { return this; }
+  bool has_gradient() const override { return true; }
+  double value(const Point& x) const override {
+    constexpr double kPrecision = 1e-3;
+    return std::floor((5.0 - (x - kSummit).squaredNorm()) / kPrecision) * kPrecision;
+  }
+  double value_and_gradient(const Point& x, Point& gradient) const override {
+    gradient = 2.0 * (kSummit - x);
+    return value(x);
+  }
+
+ private:
+  inline static const Point kSummit = Eigen::Vector2d(0.3, -0.4);
+  Box box_{Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1)};
+};
+
+TEST(Strategy, TakesTheEndOfTheSurrogatesPrecisionForASummit) {
+  StrategyOptions options;
+  options.local_tolerance = 1e-4;
+  options.local_evaluations = 1000;
+  options.polish.clear();
+  const SolveResult result = solve(Coarse(), request_from(Eigen::Vector2d(0.9, 0.9)), options);
+  EXPECT_NEAR(result.value, 5.0, 0.003);
+  EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
 }
 
 TEST(Strategy, AnswersTheSameToTheLastBit) {
