@@ -48,8 +48,9 @@ TEST(StudySearch, ReadsBackWhatItWrites) {
 }
 
 TEST(StudySearch, IsTheSameWhetherItsDefaultsAreSaidOrNot) {
-  EXPECT_EQ(settings(set({}, {"local_starts", 5.0})), settings(StudySearch{}));
-  EXPECT_NE(settings(set({}, {"local_starts", 6.0})), settings(StudySearch{}));
+  const double starts = StrategyOptions{}.local_starts;
+  EXPECT_EQ(settings(set({}, {"local_starts", starts})), settings(StudySearch{}));
+  EXPECT_NE(settings(set({}, {"local_starts", starts + 1.0})), settings(StudySearch{}));
 }
 
 TEST(StudySearch, RefusesWhatItCannotBeTold) {
