@@ -15,10 +15,10 @@ namespace nbvopt {
 
 /// What every command that has a robot asks for.
 struct RobotArguments {
-  std::string robot_file;    ///< empty: the paper's platform
+  std::string robot_file;                      ///< empty: the paper's platform
   GainKind default_gain = GainKind::positive;  ///< where neither `gain` nor the robot says
   std::string gain;                            ///< empty: as the robot says
-  std::string hazards_file;  ///< of an expected gain; empty: nothing was learnt
+  std::string hazards_file;                    ///< of an expected gain; empty: nothing was learnt
   std::int64_t threads = 0;
 };
 
