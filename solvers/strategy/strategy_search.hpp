@@ -45,8 +45,7 @@ class StrategySearch {
   std::vector<Candidate> climb(const std::vector<Candidate>& starts);
 
   /// The local search from one start. One that gives up goes on from where it is, with nothing
-  /// remembered; where even that finds nothing higher, its line search has met the precision of
-  /// the surrogate, and the end is a summit.
+  /// remembered; where even that finds nothing higher, the end is a summit to its line search.
   Candidate climb(const Candidate& start, std::int64_t max_evaluations);
 
   /// Has the objective evaluate candidates, best first, as long as one of them may be the best: by
