@@ -80,7 +80,8 @@ Simulation simulation_of(const SimulateOptions& options) {
   simulation.world = options.world.world_file;
   simulation.episode.robot = make_robot(options.robot);
   simulation.episode.hazards = given_hazards(options.robot);
-  if (!options.hazards_out.empty() && simulation.episode.robot.sensor.gain != GainKind::expected) {
+  if (!options.hazards_out.empty() &&
+      !simulation.episode.robot.sensor.gain.has(GainKind::expected)) {
     throw UsageError("--hazards-out keeps what an expected gain learns: add --gain expected");
   }
   simulation.episode.seed = static_cast<std::uint64_t>(options.seed);

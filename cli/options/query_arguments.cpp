@@ -52,8 +52,10 @@ void add_situation(CLI::App& query, QueryOptions& options) {
 void add_search(CLI::App& query, QueryOptions& options) {
   query.option_defaults()->group("How to search");
   add_solver_arguments(query, options.solver);
-  add_number(query, "--min-gain", options.min_gain, "GAIN",
-             "with less than this to be had, stay and say no_gain_in_reach");
+  add_number(
+      query, "--min-gain", options.min_gain, "GAIN",
+      "with less than this to be had, stay and say no_gain_in_reach [1; 0 for gains other than "
+      "positive and expected]");
   add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
                    "of solvers that draw random numbers");
   add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",

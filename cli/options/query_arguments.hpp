@@ -26,7 +26,7 @@ struct QueryOptions {
   ViewArguments view;
   std::optional<double> occupied_uncertainty;  ///< none: as the robot says
   SolverArguments solver;
-  double min_gain = PlanRequest{}.min_gain;
+  std::optional<double> min_gain;  ///< none: as PlanRequest says
   std::int64_t seed = 1;
   std::optional<double> time_limit_ms;
   std::int64_t max_evaluations = StopRule{}.max_evaluations;

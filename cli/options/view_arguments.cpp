@@ -12,9 +12,16 @@
 namespace nbvopt {
 namespace {
 
+/// Empty where the text is a gain or a sum of gains; else what is wrong with it.
+std::string is_gain(const std::string& text) {
+  GainChoice gain;
+  const std::string demand = store(text, gain);
+  return demand.empty() ? "" : "'" + text + "' must be " + demand;
+}
+
 void set_gain(SensorOptions& sensor, const RobotArguments& arguments) {
   if (arguments.gain.empty()) return;
-  sensor.gain = enum_value<GainKind>(arguments.gain).value();
+  store(arguments.gain, sensor.gain);
 }
 
 }  // namespace
@@ -31,10 +38,12 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
   add_robot_file_argument(app, arguments);
   app.add_option("--gain", arguments.gain,
                  "positive: the first unknown voxel is a surface (Eq. 12); expected: surfaces come "
-                 "with probabilities, learnt where scans are inserted [as the robot says, or " +
+                 "with probabilities, learnt where scans are inserted; the gains of others by name "
+                 "(docs/guide/gains.md); or a sum such as positive + 0.5*rear_side_voxel "
+                 "[as the robot says, or " +
                      to_string(arguments.default_gain) + "]")
-      ->check(CLI::IsMember(enum_names<GainKind>()))
-      ->type_name("NAME");
+      ->check(is_gain, "a gain")
+      ->type_name("GAIN");
   app.add_option("--hazards", arguments.hazards_file,
                  "what an expected gain takes for likely of the unknown: a file that "
                  "simulate wrote by --hazards-out [what the drives of docs/results.md taught]")

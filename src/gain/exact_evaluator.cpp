@@ -1,3 +1,4 @@
+#include "gain/gain_sum_evaluator.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 
 namespace nbvopt {
@@ -46,7 +47,10 @@ std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelG
   if (camera.options().gain == GainKind::expected) {
     return make_expected_evaluator(std::move(grid), camera, hazards);
   }
-  return make_exact_evaluator(std::move(grid), camera);
+  if (camera.options().gain == GainKind::positive) {
+    return make_exact_evaluator(std::move(grid), camera);
+  }
+  return detail::make_gain_sum_evaluator(std::move(grid), camera, hazards);
 }
 
 }  // namespace nbvopt

@@ -32,8 +32,9 @@ std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const Unc
   if (!is_paper_code(name)) {
     return make_exact_evaluator(std::move(grid), DepthCamera(sensor), hazards);
   }
-  if (sensor.gain == GainKind::expected) {
-    throw UsageError("the paper-code evaluator has no expected gain, use the evaluator exact");
+  if (sensor.gain != GainKind::positive) {
+    throw UsageError("the paper-code evaluator has no gain " + to_string(sensor.gain) +
+                     ", use the evaluator exact");
   }
   if (sensor.counting == Counting::per_voxel) {
     throw UsageError("the paper-code evaluator counts per_ray only, use the evaluator exact");

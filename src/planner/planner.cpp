@@ -6,6 +6,7 @@
 #include "core/number.hpp"
 #include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/solver/search.hpp"
 #include "planner/panorama_objective.hpp"
 #include "planner/plan_message.hpp"
 #include "planner/search_trace.hpp"
@@ -92,6 +93,22 @@ bool was_cut_short(SolveStatus status, const StopRule& stop) {
           stop.max_evaluations != StopRule{}.max_evaluations);
 }
 
+/// What takes the place of a solver that searches on a surrogate, where the gain has none; null
+/// where the solver will do. Only the default search is replaced, and says so.
+std::unique_ptr<Solver> search_without_surrogate(const Solver& solver, const GainChoice& gain,
+                                                 std::vector<std::string>& warnings) {
+  constexpr const char* kDefault = "auto";
+  constexpr const char* kInstead = "nlopt:direct-l";
+  if (gain.is_of_paper() || !solver.needs().surrogate) return nullptr;
+  const std::string none = "gain " + to_string(gain) + " has no surrogate to search on";
+  if (solver.name() != kDefault) {
+    throw UsageError(none + ": use solver grid, random or " + kInstead +
+                     ", or gain positive or expected");
+  }
+  warnings.push_back(none + ": solver " + kInstead + " searches the exact gain instead");
+  return make_solver(kInstead, {});
+}
+
 }  // namespace
 
 Planner::Planner(const Robot& robot, std::shared_ptr<const VoxelGrid> grid,
@@ -118,19 +135,22 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   const PanoramaObjective surrogate(grid_, sensor_, mast, result.box,
                                     request.surrogate.value_or(planning_panorama(sensor_.counting)),
                                     hazards_, trace.get());
-  const ViewObjective objective(mast, sensor_, result.box, *evaluator_, &surrogate, trace.get());
+  const ViewObjective objective(mast, sensor_, result.box, *evaluator_,
+                                sensor_.gain.is_of_paper() ? &surrogate : nullptr, trace.get());
+  const auto exact_search = search_without_surrogate(solver, sensor_.gain, result.warnings);
+  const Solver& used = exact_search ? *exact_search : solver;
   const SolveResult solved =
-      solver.solve(objective, {request.joints.vector(), request.stop, request.seed});
+      used.solve(objective, {request.joints.vector(), request.stop, request.seed});
   result.current = objective.view(request.joints.vector());
   choose(mast, objective, solved, result);
 
   result.evaluations = objective.evaluations();
   result.surrogate_evaluations = solved.surrogate_evaluations;
   if (trace) result.trace = trace->points();
-  result.solver = solver.name();
+  result.solver = used.name();
   result.seed = request.seed;
   result.map_version = grid_->version();
-  if (sensor_.gain == GainKind::expected) result.hazards = hazards_;
+  if (sensor_.gain.has(GainKind::expected)) result.hazards = hazards_;
   result.search_time_ms =
       std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
   return result;
@@ -159,6 +179,10 @@ Reach Planner::ready_reach(const PlanRequest& request) const {
   return reach;
 }
 
+double Planner::least_gain(const PlanRequest& request) const {
+  return request.min_gain.value_or(sensor_.gain.is_of_paper() ? 1.0 : 0.0);
+}
+
 void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
                      const SolveResult& solved, PlanResult& result) const {
   const PlanRequest& request = result.request;
@@ -173,7 +197,7 @@ void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
   take(JointPosition::from(solved.best));
   result.status = plan_status(solved.status);
   const VoxelState at_camera = state_at_camera(*grid_, mast, request.joints);
-  const bool is_worth_a_move = result.view.gain >= request.min_gain;
+  const bool is_worth_a_move = result.view.gain >= least_gain(request);
   if (at_camera == VoxelState::occupied ||
       (!is_worth_a_move && !was_cut_short(solved.status, request.stop))) {
     result.status = PlanStatus::no_gain_in_reach;

@@ -45,6 +45,8 @@ class Planner {
   PlanRequest usable(const PlanRequest& asked, std::vector<std::string>& warnings) const;
   /// The request's reach, its voxels ready.
   Reach ready_reach(const PlanRequest& request) const;
+  /// With less to be had the answer is to stay.
+  double least_gain(const PlanRequest& request) const;
   /// Fills the answer from what the solver found.
   void choose(const MovingMast& mast, const ViewObjective& objective, const SolveResult& solved,
               PlanResult& result) const;

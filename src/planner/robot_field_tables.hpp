@@ -39,8 +39,11 @@ inline constexpr auto kSensorFields = std::to_array<Field<SensorOptions>>({
     field<&SensorOptions::ray_pattern>("ray_pattern", "pixel_centres or equal_angles"),
     field<&SensorOptions::range_axis>("range_axis", "euclidean or z_depth"),
     field<&SensorOptions::counting>("counting", "per_ray or per_voxel (Eq. 13)"),
-    field<&SensorOptions::gain>(
-        "gain", "positive: the unknown is a wall (Eq. 12); expected: with a learnt probability"),
+    field<&SensorOptions::gain>("gain",
+                                "positive: the unknown is a wall (Eq. 12); expected: with a learnt "
+                                "probability; another gain's name, or a sum"),
+    field<&SensorOptions::visibility>("visibility",
+                                      "paper or released: P_vis of the gains of Isler et al."),
     field<&SensorOptions::near_blocking>(
         "near_blocking", "true: an occupied voxel nearer than range_min_m blocks the ray"),
     field<&SensorOptions::no_return>(

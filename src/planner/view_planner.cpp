@@ -46,7 +46,7 @@ class ViewPlanner::Impl {
 
   InsertResult insert(const Scan& scan, const Transform& T_map_sensor) {
     if (!map_) throw UsageError("a planner on one version of a grid has no map to insert into");
-    if (robot_.sensor.gain == GainKind::expected) {
+    if (robot_.sensor.gain.has(GainKind::expected)) {
       const std::scoped_lock lock(learning_mutex_);  // of two scans at once, each teaches
       HazardTable hazards = this->hazards();
       learn_hazards(*map_->grid(), scan, T_map_sensor, robot_.sensor, hazards);

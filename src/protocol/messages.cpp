@@ -376,7 +376,7 @@ v1::PlanRequest to_message(const PlanRequest& request) {
   *message.mutable_base()->mutable_pose() = to_message(request.T_map_base);
   *message.mutable_joints() = to_message(request.joints);
   message.set_motion_time_s(request.motion_time_s);
-  message.set_min_gain(request.min_gain);
+  if (request.min_gain) message.set_min_gain(*request.min_gain);
   message.set_seed(request.seed);
   if (!request.base_twist.is_zero()) {
     v1::BaseTwist& twist = *message.mutable_base_twist();

@@ -68,7 +68,8 @@ PlanResult plan(const MapPlanner& self, const py::object& base, const py::object
                 double motion_time_s, const Stage& solver, const Stage& global_solver,
                 const Stage& local_solver, const Stage& polish_solver, double step_pan_rad,
                 double step_tilt_rad, double step_height_m, const py::object& base_twist,
-                const std::vector<std::pair<double, py::object>>& base_path, double min_gain,
+                const std::vector<std::pair<double, py::object>>& base_path,
+                const std::optional<double>& min_gain,
                 const std::optional<std::int64_t>& max_evaluations,
                 const std::optional<double>& time_limit_ms, std::int64_t seed, bool trace) {
   PlanRequest request;
@@ -167,7 +168,6 @@ void bind_landscape(py::module_& module) {
 
 void bind_planner(py::module_& module) {
   bind_landscape(module);
-  const PlanRequest defaults;
   py::class_<MapPlanner>(
       module, "Planner",
       "Where should the camera look next? Plans views of a map for one robot, judged by one "
@@ -187,7 +187,7 @@ void bind_planner(py::module_& module) {
            py::arg("local_solver") = py::none(), py::arg("polish_solver") = py::none(),
            py::arg("step_pan_rad") = 0.8, py::arg("step_tilt_rad") = 0.0,
            py::arg("step_height_m") = 0.0, py::arg("base_twist") = py::make_tuple(0.0, 0.0, 0.0),
-           py::arg("base_path") = py::tuple(), py::arg("min_gain") = defaults.min_gain,
+           py::arg("base_path") = py::tuple(), py::arg("min_gain") = py::none(),
            py::arg("max_evaluations") = py::none(), py::arg("time_limit_ms") = py::none(),
            py::arg("seed") = 1, py::arg("trace") = false,
            "A PlanResult: that of `nbvopt query`, to the last bit.\n\n"
@@ -200,7 +200,9 @@ void bind_planner(py::module_& module) {
            "base_twist: the base's velocity in its own frame (m/s, m/s, rad/s), which it keeps.\n"
            "base_path: where the base will be, (seconds from now, base) each, instead of a twist:\n"
            "the view is taken from where the path leads when the motion time is over.\n"
-           "min_gain: with less to be had the answer is to stay, and says no_gain_in_reach.\n"
+           "min_gain: with less to be had the answer is to stay, and says no_gain_in_reach. None: "
+           "1, or\n"
+           "0 where the robot's gain is neither positive nor expected.\n"
            "max_evaluations, time_limit_ms: limits of computing; the answer is then the best so\n"
            "far.\n"
            "seed: of solvers that draw random numbers.\n"

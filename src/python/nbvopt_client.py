@@ -220,7 +220,8 @@ def plan_request(
     base_path: where the base will be, (seconds from now, base) each, instead of a twist: the view
         is taken from where the path leads when the motion time is over.
     search: a solver's name, or a Search that composes one; "auto" when not given.
-    min_gain: with less to be had the answer is to stay; 1 when not given.
+    min_gain: with less to be had the answer is to stay; when not given 1, or 0
+        where the robot's gain is neither positive nor expected.
     max_evaluations, time_limit_ms: limits of computing, after which the best so far is answered.
     """
     return pb.PlanRequest(

@@ -1,7 +1,11 @@
 // The words of the sensor's options.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/enum_names.hpp"
+#include "nbvopt/fields/field_value.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
 
 namespace nbvopt {
@@ -31,11 +35,28 @@ template <>
 inline constexpr auto kEnumNames<GainKind> = std::to_array<EnumName<GainKind>>({
     {GainKind::positive, "positive"},
     {GainKind::expected, "expected"},
+    {GainKind::occlusion_aware, "occlusion_aware"},
+    {GainKind::unobserved_voxel, "unobserved_voxel"},
+    {GainKind::rear_side_voxel, "rear_side_voxel"},
+    {GainKind::rear_side_entropy, "rear_side_entropy"},
+    {GainKind::proximity_count, "proximity_count"},
+    {GainKind::vasquez_gomez_area, "vasquez_gomez_area"},
+    {GainKind::average_entropy, "average_entropy"},
+    {GainKind::voxel_weight, "voxel_weight"},
+});
+template <>
+inline constexpr auto kEnumNames<Visibility> = std::to_array<EnumName<Visibility>>({
+    {Visibility::paper, "paper"},
+    {Visibility::released, "released"},
 });
 template <>
 inline constexpr auto kEnumNames<NoReturn> = std::to_array<EnumName<NoReturn>>({
     {NoReturn::clear, "clear"},
     {NoReturn::ignore, "ignore"},
 });
+
+/// Reads a gain's name or a weighted sum, as store() of fields does; value_of() is the way back.
+std::string store(const FieldValue& value, GainChoice& field);
+inline std::optional<FieldValue> value_of(const GainChoice& field) { return to_string(field); }
 
 }  // namespace nbvopt

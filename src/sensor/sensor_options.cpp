@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/field_check.hpp"
+#include "nbvopt/core/error.hpp"
 #include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
@@ -51,6 +52,10 @@ void SensorOptions::validate() const {
               "0 rad (the half field of view) or more");
   check_field(uncertainty_half_fov_vertical_rad >= 0.0, "sensor.uncertainty_half_fov_vertical_rad",
               uncertainty_half_fov_vertical_rad, "0 rad (the half field of view) or more");
+  if (!gain.is_of_paper() && counting == Counting::per_voxel) {
+    throw InputError("sensor.counting is per_voxel, gain " + to_string(gain) +
+                     " is a sum over rays: set it to per_ray");
+  }
   check_field(occupied_uncertainty >= 0.0 && occupied_uncertainty <= 1.0,
               "sensor.occupied_uncertainty", occupied_uncertainty, "from 0 to 1");
 }
@@ -63,7 +68,7 @@ std::string to_string(UncertaintyMode value) { return std::string(enum_name(valu
 
 std::string to_string(Counting value) { return std::string(enum_name(value)); }
 
-std::string to_string(GainKind value) { return std::string(enum_name(value)); }
+std::string to_string(Visibility value) { return std::string(enum_name(value)); }
 
 std::string to_string(NoReturn value) { return std::string(enum_name(value)); }
 

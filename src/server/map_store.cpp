@@ -44,7 +44,7 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
 
   Insertion insertion;
   HazardTable hazards = hazards_;
-  if (robot_.sensor.gain == GainKind::expected) {
+  if (robot_.sensor.gain.has(GainKind::expected)) {
     learn_hazards(*grid_, scan, T_map_sensor, robot_.sensor, hazards);
   }
   try {

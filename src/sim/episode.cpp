@@ -190,7 +190,7 @@ class EpisodeRun {
                          T_map_sensor);
   }
 
-  bool is_expected() const { return options_.robot.sensor.gain == GainKind::expected; }
+  bool is_expected() const { return options_.robot.sensor.gain.has(GainKind::expected); }
 
   const Trajectory& trajectory_;
   const CameraMode& mode_;

@@ -111,6 +111,17 @@ TEST_F(CommandLine, QueryTakesTheExpectedGain) {
             positive["gain"]);
 }
 
+TEST_F(CommandLine, QuerySearchesAnyGainExactly) {
+  const json area = nbvopt_json(json_query(map_file, {"--gain", "vasquez_gomez_area"}));
+  EXPECT_EQ(area["solver"], "nlopt:direct-l");
+  EXPECT_NE(area["warnings"].dump().find("no surrogate"), std::string::npos);
+  EXPECT_NE(area["status"], "no_gain_in_reach");  // it is never above 2
+  EXPECT_GT(area["gain"], area["current_gain"]);
+  const json grid = nbvopt_json(json_query(
+      map_file, {"--gain", "positive + 2*unobserved_voxel", "--solver", "grid"}));
+  EXPECT_GT(grid["gain"], nbvopt_json(json_query(map_file, {"--solver", "grid"}))["gain"]);
+}
+
 TEST_F(CommandLine, QueryTellsPeopleWhereToLook) {
   const ProcessResult result = nbvopt_run(query(map_file));
   EXPECT_EQ(result.exit_code, 0);

@@ -31,7 +31,9 @@ struct PlanRequest {
   std::vector<TimedPose> base_path;
   JointPosition joints;        ///< where the joints are now
   double motion_time_s = 0.0;  ///< the joints' travel time, t of Algorithm 2; 0: no limit
-  double min_gain = 1.0;       ///< below it the planner says that there is nothing to gain
+  /// Below it the planner says that there is nothing to gain. None: 1 where the robot's gain is
+  /// positive or expected, 0 for any other, each of which has a unit of its own.
+  std::optional<double> min_gain;
   StopRule stop;
   std::uint64_t seed = 1;
   bool record_trace = false;                 ///< whether the answer lists every evaluation

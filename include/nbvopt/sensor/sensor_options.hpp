@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "nbvopt/sensor/gain_choice.hpp"
+
 namespace nbvopt {
 
 enum class RayPattern {
@@ -19,9 +21,10 @@ enum class Counting {
   per_ray,    ///< the sum over rays (Section III-B.2)
   per_voxel,  ///< the sum over distinct voxels, each with its best ray (Eq. 13)
 };
-enum class GainKind {
-  positive,  ///< the first unknown voxel on a ray is a surface (Eq. 12)
-  expected,  ///< unknown space holds surfaces with the hazards of HazardTable
+/// How the gains of Isler et al. take P_vis, the probability that a voxel is in sight.
+enum class Visibility {
+  paper,     ///< the product of 1 - p_occ over the voxels before it
+  released,  ///< the product of p_occ, as the released code computes it
 };
 enum class NoReturn { clear, ignore };  ///< what a ray without a return does to the map
 
@@ -43,7 +46,8 @@ struct SensorOptions {
   RayPattern ray_pattern = RayPattern::pixel_centres;
   RangeAxis range_axis = RangeAxis::euclidean;
   Counting counting = Counting::per_ray;
-  GainKind gain = GainKind::positive;
+  GainChoice gain = GainKind::positive;
+  Visibility visibility = Visibility::paper;
   bool near_blocking = true;  ///< an occupied voxel that a ray leaves before D_min blocks it
   NoReturn no_return = NoReturn::clear;
   double occupied_uncertainty = 1.0;  ///< u of an occupied voxel whose map carries none
@@ -62,7 +66,7 @@ std::string to_string(RayPattern value);
 std::string to_string(RangeAxis value);
 std::string to_string(UncertaintyMode value);
 std::string to_string(Counting value);
-std::string to_string(GainKind value);
+std::string to_string(Visibility value);
 std::string to_string(NoReturn value);
 
 }  // namespace nbvopt
