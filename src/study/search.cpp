@@ -10,6 +10,7 @@
 #include "nbvopt/gain/named_evaluator.hpp"
 #include "nbvopt/planner/plan.hpp"
 #include "nbvopt/solver/registry.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt::study {
 namespace {
@@ -62,7 +63,8 @@ constexpr Field<StudySearch> step_field(std::string_view key) {
   return field<&StudySearch::search, &Search::grid_steps, Joint>(key);
 }
 
-constexpr std::array kCommonFields{kSolver, field<&StudySearch::evaluator>("evaluator")};
+constexpr std::array kCommonFields{kSolver, field<&StudySearch::evaluator>("evaluator"),
+                                   field<&StudySearch::gain>("gain")};
 constexpr std::array kStageFields{
     stage_field<&StrategyOptions::global>("global"),
     stage_field<&StrategyOptions::local>("local"),
@@ -160,6 +162,10 @@ void check_settings(const StudySearch& search, const std::vector<FieldSetting>& 
   if (std::ranges::find(evaluators, search.evaluator) == evaluators.end()) {
     throw InputError(place + ": evaluator is '" + search.evaluator + "', did you mean '" +
                      nearest_word(search.evaluator, evaluators) + "'?");
+  }
+  if (search.gain && search.evaluator != evaluators.front()) {
+    throw InputError(place + ": gain belongs to evaluator " + evaluators.front() + ", not to " +
+                     search.evaluator);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "nbvopt/fields/field_value.hpp"
 #include "nbvopt/gain/panorama.hpp"
+#include "nbvopt/sensor/gain_choice.hpp"
 #include "nbvopt/solver/search.hpp"
 
 namespace nbvopt::study {
@@ -17,6 +18,8 @@ namespace nbvopt::study {
 struct StudySearch {
   Search search{.grid_steps = {0.8, 0.0, 0.0}};  ///< pan (rad, of the paper), tilt, height (m)
   std::string evaluator = "exact";               ///< exact or paper-code
+  /// What it searches for; its answers are judged by the robot's gain. None: that one.
+  std::optional<GainChoice> gain = {};
   /// Of the panorama that strategies search on; none: as the planner has it.
   std::optional<double> surrogate_ray_spacing = {};
   std::optional<double> surrogate_layer_spacing = {};

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -83,16 +84,18 @@ class UnitRunner::Scene {
     throw InputError(unit.map.string() + " has changed since the study began");
   }
 
-  const ViewPlanner& planner(UncertaintyMode mode, const std::string& evaluator) {
-    const auto key = std::pair(mode, evaluator);
+  const ViewPlanner& planner(UncertaintyMode mode, const StudySearch& search) {
+    const GainChoice gain = search.gain.value_or(robot_.sensor.gain);
+    const auto key = std::tuple(mode, search.evaluator, to_string(gain));
     const auto known = planners_.find(key);
     if (known != planners_.end()) return known->second;
     Robot robot = robot_;
     robot.sensor.uncertainty_mode = mode;
-    return planners_.emplace(key, ViewPlanner(map_, robot, evaluator)).first->second;
+    robot.sensor.gain = gain;
+    return planners_.emplace(key, ViewPlanner(map_, robot, search.evaluator)).first->second;
   }
-  /// Judges by the exact gain, as this mode counts it.
-  const ViewPlanner& exact(UncertaintyMode mode) { return planner(mode, kExact); }
+  /// Judges by the robot's exact gain, as this mode counts it.
+  const ViewPlanner& exact(UncertaintyMode mode) { return planner(mode, {.evaluator = kExact}); }
   Counting counting() const { return robot_.sensor.counting; }
 
  private:
@@ -101,7 +104,7 @@ class UnitRunner::Scene {
   std::string map_digest_;
   Robot robot_;
   std::shared_ptr<SharedMap> map_;  ///< of all planners
-  std::map<std::pair<UncertaintyMode, std::string>, ViewPlanner> planners_;
+  std::map<std::tuple<UncertaintyMode, std::string, std::string>, ViewPlanner> planners_;
 };
 
 UnitRunner::UnitRunner(SolverFactory make) : make_(std::move(make)) {}
@@ -117,9 +120,9 @@ Json UnitRunner::run(const WorkUnit& unit) {
 }
 
 Json UnitRunner::run_query(const WorkUnit& unit) {
-  const bool is_exact = unit.search.evaluator == kExact;
+  const bool is_exact = unit.search.evaluator == kExact && !unit.search.gain;
   const auto solver = make_(unit.search.search);
-  const ViewPlanner& planner = scene_->planner(unit.mode, unit.search.evaluator);
+  const ViewPlanner& planner = scene_->planner(unit.mode, unit.search);
   PlanRequest request = request_of(unit);
   request.surrogate = surrogate_options(unit.search, scene_->counting());
   // Whoever is first at a place would pay for its bricks otherwise.
@@ -151,7 +154,7 @@ Json UnitRunner::run_query(const WorkUnit& unit) {
 
 Json UnitRunner::run_reference(const WorkUnit& unit) {
   const auto begin = StopRule::Clock::now();
-  const ViewPlanner& planner = scene_->planner(unit.mode, kExact);
+  const ViewPlanner& planner = scene_->exact(unit.mode);
   const PlanRequest request = request_of(unit);
   const MovingMast mast = moving_mast(request, planner.mast());
   const auto gain = [&](const JointPosition& q) {

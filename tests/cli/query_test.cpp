@@ -117,8 +117,8 @@ TEST_F(CommandLine, QuerySearchesAnyGainExactly) {
   EXPECT_NE(area["warnings"].dump().find("no surrogate"), std::string::npos);
   EXPECT_NE(area["status"], "no_gain_in_reach");  // it is never above 2
   EXPECT_GT(area["gain"], area["current_gain"]);
-  const json grid = nbvopt_json(json_query(
-      map_file, {"--gain", "positive + 2*unobserved_voxel", "--solver", "grid"}));
+  const json grid = nbvopt_json(
+      json_query(map_file, {"--gain", "positive + 2*unobserved_voxel", "--solver", "grid"}));
   EXPECT_GT(grid["gain"], nbvopt_json(json_query(map_file, {"--solver", "grid"}))["gain"]);
 }
 

@@ -38,7 +38,11 @@ TEST(StudySearch, ReadsBackWhatItWrites) {
   composed.search.stages = StrategyOptions{.global = "", .local_starts = 9};
   StudySearch grid = set(set({}, {"solver", "grid"}), {"step_height_m", 0.05});
   grid.evaluator = "paper-code";
-  for (const StudySearch& search : {StudySearch{}, composed, grid, by_solver("nlopt:sbplx")}) {
+  const StudySearch other = set(by_solver("random"), {"gain", "expected + 2*voxel_weight"});
+  EXPECT_EQ(to_json(other).dump(),
+            R"({"solver":"random","evaluator":"exact","gain":"expected + 2*voxel_weight"})");
+  for (const StudySearch& search :
+       {StudySearch{}, composed, grid, by_solver("nlopt:sbplx"), other}) {
     const StudySearch same = search_of(to_json(search));
     EXPECT_EQ(settings(same), settings(search));
     EXPECT_EQ(same.search.solver, search.search.solver);
@@ -73,6 +77,9 @@ TEST(StudySearch, RefusesParametersThatItsSolverDoesNotHeed) {
             "place: surrogate_smoothing belongs to solver auto, not to nlopt:ags");
   EXPECT_EQ(refusal(by_solver("nlopt:ags"), "tolerance"), "");
   EXPECT_EQ(refusal(by_solver("nlopt:nothing"), "tolerance"), "") << "refused when it is made";
+  StudySearch released = set({}, {"gain", "proximity_count"});
+  released.evaluator = "paper-code";
+  EXPECT_EQ(refusal(released, "gain"), "place: gain belongs to evaluator exact, not to paper-code");
 }
 
 }  // namespace
