@@ -48,6 +48,8 @@ TEST(RobotFile, ReadsBackEveryFieldThatItWrites) {
                   .ray_pattern = RayPattern::equal_angles,
                   .range_axis = RangeAxis::z_depth,
                   .counting = Counting::per_voxel,
+                  .gain = GainKind::expected,
+                  .visibility = Visibility::released,
                   .near_blocking = false,
                   .no_return = NoReturn::ignore,
                   .occupied_uncertainty = 0.7};
