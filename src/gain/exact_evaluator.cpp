@@ -50,7 +50,7 @@ std::unique_ptr<ViewEvaluator> make_exact_evaluator(std::shared_ptr<const VoxelG
   if (camera.options().gain == GainKind::positive) {
     return make_exact_evaluator(std::move(grid), camera);
   }
-  return detail::make_gain_sum_evaluator(std::move(grid), camera, hazards);
+  return detail::make_gain_sum_evaluator(grid, camera, hazards);
 }
 
 }  // namespace nbvopt

@@ -71,7 +71,7 @@ class GainSumEvaluator final : public ViewEvaluator {
 
 }  // namespace
 
-std::unique_ptr<ViewEvaluator> make_gain_sum_evaluator(std::shared_ptr<const VoxelGrid> grid,
+std::unique_ptr<ViewEvaluator> make_gain_sum_evaluator(const std::shared_ptr<const VoxelGrid>& grid,
                                                        const DepthCamera& camera,
                                                        const HazardTable& hazards) {
   return std::make_unique<GainSumEvaluator>(grid, camera, hazards);
