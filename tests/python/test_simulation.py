@@ -42,7 +42,7 @@ class EpisodeTest(SimulationTest):
         metrics, map_file, plot = (self.folder / name for name in ("m.jsonl", "m.ot", "p.png"))
         files = ["--metrics", metrics, "--map-out", map_file, "--plot", plot]
         told = cli_json("simulate", OFFICE, "--json", "--no-progress", "--no-cache",
-                        "--robot", self.robot_file, *options, *files)  # fmt: skip
+                        "--robot", self.robot_file, "--gain", "positive", *options, *files)  # fmt: skip
         summary = episode.summary
         self.assertEqual(summary.pop("times_ms").keys(), told.pop("times_ms").keys())
         self.assertEqual(summary, told)

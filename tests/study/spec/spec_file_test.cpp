@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSpec{"search_twice", "- solver: auto", "- solver: auto\n  - solver: auto",
                 "line 6: solvers would make a second search named 'auto'"},
         BadSpec{"same_search", "- solver: auto",
-                "- solver: auto\n  - {name: other, local_starts: [5, 3]}", "keep one"},
+                "- solver: auto\n  - {name: other, local_starts: [12, 3]}", "keep one"},
         BadSpec{"not_finite", "solver: auto", "{solver: auto, local: none, local_tolerance: nan}",
                 "not finite"},
         BadSpec{"too_many_starts", "count: 1", "count: 1e9",
