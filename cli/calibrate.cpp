@@ -99,10 +99,8 @@ void set_up_calibrate(CLI::App& app) {
   calibrate->add_flag("--json", options->json, "print one JSON object instead of text");
   calibrate->add_flag("--no-progress", options->is_silent, "show no progress bar");
   calibrate->footer(
-      "Each drive is replayed twice with the expected gain: once it begins with nothing, once "
-      "with\n"
-      "what the drives through the other worlds taught. Both are judged by what the views "
-      "realise.\n"
+      "Each drive is replayed twice with the expected gain: beginning with nothing, and with\n"
+      "what the drives through the other worlds taught. Views are judged by what they realise.\n"
       "Example: nbvopt calibrate --drive a.world a.csv --drive b.world b.csv --hazards-out h.json");
   calibrate->callback([options] { run_calibrate(*options); });
 }

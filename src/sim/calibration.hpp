@@ -26,8 +26,7 @@ struct PredictionJudgement {
   PredictionRecord chosen;   ///< of the views that it took
   PredictionRecord random;   ///< of ten random views in reach of each step
   double chosen_gain = 0.0;  ///< realised, summed over the steps
-  double best_gain =
-      0.0;  ///< of the chosen and the random views of each step the best one's, summed
+  double best_gain = 0.0;    ///< realised by the best of all views of each step, summed
   double information = 0.0;  ///< of the map
 
   /// What the best of the views would have realised more, step by step, as a share of it.

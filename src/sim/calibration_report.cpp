@@ -1,19 +1,17 @@
 #include "sim/calibration_report.hpp"
 
-#include <cmath>
-
 #include "core/number.hpp"
 #include "nbvopt/gain/hazard_file.hpp"
+#include "sim/episode_output.hpp"
 
 namespace nbvopt {
 namespace {
 
 Json to_json(const PredictionRecord& record) {
-  const auto finite = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   return {{"steps", record.steps},
-          {"bias", finite(record.bias())},
-          {"correlation", finite(record.correlation())},
-          {"slope", finite(record.slope())}};
+          {"bias", number_or_null(record.bias())},
+          {"correlation", number_or_null(record.correlation())},
+          {"slope", number_or_null(record.slope())}};
 }
 
 Json to_json(const PredictionJudgement& judgement) {

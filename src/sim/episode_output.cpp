@@ -11,9 +11,6 @@
 namespace nbvopt {
 namespace {
 
-/// JSON has no NaN: what does not exist is null.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 ExplorationStatus status_of(const std::string& name) {
   for (const auto status : {ExplorationStatus::complete, ExplorationStatus::open_ground,
                             ExplorationStatus::time_limit}) {
@@ -80,6 +77,8 @@ StepTimes StepTimer::mean() const {
   const auto n = static_cast<double>(captures_);
   return {sum_.render_ms / n, sum_.insert_ms / n, sum_.grid_ms / n, sum_.plan_ms / n};
 }
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const Capture& capture) {
   const Eigen::Vector3d& base_m = capture.T_map_base.translation();

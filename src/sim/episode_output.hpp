@@ -55,6 +55,9 @@ struct EpisodeReport {
   std::optional<ExplorationStatus> drive_status = {};
 };
 
+/// JSON has no NaN: what does not exist is null.
+Json number_or_null(double value);
+
 Json to_json(const Capture& capture);
 Json to_json(const DriveReport& report);
 Json to_json(const EpisodeReport& report);
