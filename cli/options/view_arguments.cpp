@@ -45,8 +45,9 @@ void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
       ->check(is_gain, "a gain")
       ->type_name("GAIN");
   app.add_option("--hazards", arguments.hazards_file,
-                 "what an expected gain takes for likely of the unknown: a file that "
-                 "simulate wrote by --hazards-out [what the drives of docs/results.md taught]")
+                 "what an expected gain takes for likely of the unknown: a file that simulate or "
+                 "calibrate wrote by --hazards-out, or a server's snapshot [what the drives "
+                 "of docs/results.md taught]")
       ->type_name("FILE");
 }
 

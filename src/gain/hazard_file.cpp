@@ -1,15 +1,20 @@
 #include "nbvopt/gain/hazard_file.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "core/atomic_file.hpp"
+#include "core/input_file.hpp"
 #include "core/json.hpp"
-#include "core/text_file.hpp"
 #include "fields/keys.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 namespace {
+
+constexpr std::string_view kComment = "# nbvopt hazards ";
 
 HazardCount count_in(const Json& json, const std::string& where) {
   HazardCount count;
@@ -21,6 +26,16 @@ HazardCount count_in(const Json& json, const std::string& where) {
   if (count.hits < 0.0) throw InputError(where + ".hits must be 0 or more");
   if (!(count.metres > 0.0)) throw InputError(where + ".metres must be greater than 0");
   return count;
+}
+
+Json to_json(const HazardTable& hazards) {
+  Json contexts = Json::object();
+  const std::vector<std::string> names = hazard_context_names();
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const HazardCount& count = hazards.count(c);
+    contexts[names[c]] = {{"hits", count.hits}, {"metres", count.metres}};
+  }
+  return Json{{"floor_map_m", hazards.floor_map_m()}, {"contexts", std::move(contexts)}};
 }
 
 }  // namespace
@@ -39,22 +54,21 @@ std::vector<std::string> hazard_context_names() {
   return names;
 }
 
-std::string hazards_json(const HazardTable& hazards) {
-  Json contexts = Json::object();
-  const std::vector<std::string> names = hazard_context_names();
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const HazardCount& count = hazards.count(c);
-    contexts[names[c]] = {{"hits", count.hits}, {"metres", count.metres}};
-  }
-  return to_text(Json{{"floor_map_m", hazards.floor_map_m()}, {"contexts", std::move(contexts)}});
-}
+std::string hazards_json(const HazardTable& hazards) { return to_text(to_json(hazards)); }
 
 void write_hazards(const HazardTable& hazards, const std::filesystem::path& path) {
   write_file_atomically(path, hazards_json(hazards));
 }
 
 HazardTable read_hazards(const std::filesystem::path& path) {
-  return parse_hazards(read_text_file(path), path.string());
+  std::ifstream in = open_input_file(path);
+  if (in.peek() == '#') {
+    if (const auto hazards = hazards_in_header(in, path.string())) return *hazards;
+    throw InputError(path.string() +
+                     ": this map keeps no hazards: give the snapshot of a server whose gain is "
+                     "expected, or a JSON file of hazards");
+  }
+  return parse_hazards(std::string(std::istreambuf_iterator<char>(in), {}), path.string());
 }
 
 HazardTable parse_hazards(const std::string& text, const std::string& name) {
@@ -78,6 +92,18 @@ HazardTable parse_hazards(const std::string& text, const std::string& name) {
     hazards.set(static_cast<std::size_t>(place - names.begin()), count_in(value, where));
   }
   return hazards;
+}
+
+std::string hazards_comment(const HazardTable& hazards) {
+  return std::string(kComment) + to_json(hazards).dump() + '\n';
+}
+
+std::optional<HazardTable> hazards_in_header(std::istream& map, const std::string& name) {
+  std::string line;
+  while (map.peek() == '#' && std::getline(map, line)) {
+    if (line.starts_with(kComment)) return parse_hazards(line.substr(kComment.size()), name);
+  }
+  return std::nullopt;
 }
 
 }  // namespace nbvopt

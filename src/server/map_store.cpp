@@ -84,8 +84,9 @@ std::shared_ptr<const MapBytes> MapStore::bytes(MapFormat format) const {
   std::weak_ptr<const MapBytes>& last = bytes_[format];
   std::shared_ptr<const MapBytes> bytes = last.lock();
   if (bytes == nullptr || bytes->version != grid_->version()) {
-    bytes =
-        std::make_shared<const MapBytes>(MapBytes{map_file_bytes(map_, format), grid_->version()});
+    MapBytes made{map_file_bytes(map_, format), grid_->version(), std::nullopt};
+    if (robot_.sensor.gain.has(GainKind::expected)) made.hazards = hazards_;
+    bytes = std::make_shared<const MapBytes>(std::move(made));
     last = bytes;
   }
   return bytes;

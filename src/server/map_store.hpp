@@ -20,6 +20,7 @@ namespace nbvopt {
 struct MapBytes {
   std::string bytes;
   std::uint64_t version = 0;
+  std::optional<HazardTable> hazards;  ///< learnt up to there, where the gain is expected
 };
 
 struct VersionedCounts {

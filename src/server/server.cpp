@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The map to start with: what a snapshot holds wins over the map file, which is older.
+/// What to start with: what a snapshot holds wins over files, which are older.
 Snapshot first_map(const ServerOptions& options) {
   if (!options.snapshot_file.empty()) {
     if (auto snapshot = read_snapshot(options.snapshot_file)) {
@@ -34,12 +34,12 @@ Snapshot first_map(const ServerOptions& options) {
       return std::move(*snapshot);
     }
   }
-  if (!options.map_file.empty()) return {read_map(options.map_file), 1};
+  if (!options.map_file.empty()) return {read_map(options.map_file), 1, std::nullopt};
   if (!options.new_resolution_m) {
     throw UsageError(
         "there is no map to start with: give a map file, or the resolution of an empty one");
   }
-  return {UncertaintyMap(*options.new_resolution_m), 1};
+  return {UncertaintyMap(*options.new_resolution_m), 1, std::nullopt};
 }
 
 std::shared_ptr<grpc::ServerCredentials> credentials(const TlsFiles& tls) {
@@ -92,7 +92,7 @@ struct Server::Parts {
     }
     Snapshot first = first_map(options);
     store.emplace(options.robot, options.limits, std::move(first.map), first.version,
-                  options.hazards);
+                  first.hazards.value_or(options.hazards));
     if (!keeps_snapshots) return;
     snapshots.emplace(*store, options.snapshot_file, options.snapshot_every);
     snapshots->save();  // a disk that is full or not writable shows before the first scan

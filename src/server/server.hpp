@@ -17,7 +17,8 @@ namespace nbvopt {
 
 struct ServerOptions {
   Robot robot;
-  HazardTable hazards = HazardTable();     ///< that an expected gain begins with
+  /// What an expected gain begins with, unless the snapshot has more.
+  HazardTable hazards = HazardTable();
   std::filesystem::path map_file;          ///< empty: none
   std::optional<double> new_resolution_m;  ///< of an empty map where there is no file
   std::filesystem::path snapshot_file;     ///< empty: none

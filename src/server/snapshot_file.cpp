@@ -8,6 +8,7 @@
 #include "core/atomic_file.hpp"
 #include "core/input_file.hpp"
 #include "map/whole_number.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/map/map_file.hpp"
 
 namespace nbvopt {
@@ -33,15 +34,19 @@ std::optional<Snapshot> read_snapshot(const fs::path& path) {
   if (!fs::exists(path, error) && !error) return {};
   std::ifstream in = open_input_file(path);
   const std::uint64_t version = stored_version(in);
-  in.clear();
-  in.seekg(0);
-  return Snapshot{read_map(in, path.string()), version};
+  const auto from_the_start = [&]() -> std::istream& {
+    in.clear();
+    return in.seekg(0);
+  };
+  auto hazards = hazards_in_header(from_the_start(), path.string());
+  return Snapshot{read_map(from_the_start(), path.string()), version, std::move(hazards)};
 }
 
 void write_snapshot(const fs::path& path, const MapBytes& map) {
-  const std::size_t second_line = map.bytes.find('\n') + 1;
+  std::string comments = std::string(kVersionComment) + std::to_string(map.version) + '\n';
+  if (map.hazards) comments += hazards_comment(*map.hazards);
   std::string bytes = map.bytes;
-  bytes.insert(second_line, std::string(kVersionComment) + std::to_string(map.version) + '\n');
+  bytes.insert(bytes.find('\n') + 1, comments);
   write_file_atomically(path, bytes);
 }
 

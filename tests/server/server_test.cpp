@@ -8,6 +8,7 @@
 #include <future>
 #include <thread>
 
+#include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
@@ -277,6 +278,37 @@ TEST(Server, ResumesFromItsSnapshot) {
   EXPECT_EQ(client.status().map_version, 4U);
   EXPECT_EQ(client.status().durable_version, 4U);
   EXPECT_EQ(client.get_map().bytes, bytes);
+}
+
+TEST(Server, KeepsWhatItsScansTaughtOverARestart) {
+  const test::TemporaryFolder folder;
+  ServerOptions options;
+  options.robot = test::small_robot();
+  options.robot.sensor.gain = GainKind::expected;
+  options.new_resolution_m = 0.1;
+  options.snapshot_file = folder / "snapshot.ot";
+  options.listen = "unix:" + (folder / "socket");
+  const auto plan = [](PlannerClient& client) {
+    PlanRequest request;
+    request.joints.height_m = 0.4;
+    request.motion_time_s = 0.5;
+    return client.plan(request).result.hazards;
+  };
+  std::optional<HazardTable> taught;
+  {
+    Server server(options);
+    PlannerClient client(server.address());
+    client.insert_scan(test::small_scan(), test::scan_pose(0));
+    taught = plan(client);
+    server.stop();
+  }
+  ASSERT_TRUE(taught);
+  EXPECT_NE(*taught, HazardTable());
+  EXPECT_EQ(read_hazards(options.snapshot_file), *taught);
+  options.hazards = HazardTable::uniform(1.0);  // of a file: older than the snapshot
+  Server server(options);
+  PlannerClient client(server.address());
+  EXPECT_EQ(plan(client), taught);
 }
 
 TEST(Server, NeedsAMapToStartWith) {

@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/gain/hazard_file.hpp"
 #include "server/server_world.hpp"
 #include "server/snapshot_file.hpp"
 #include "server/snapshot_keeper.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using ::testing::HasSubstr;
 
 class SnapshotTest : public ::testing::Test {
  protected:
@@ -32,6 +34,27 @@ TEST_F(SnapshotTest, KeepsMapAndVersion) {
   EXPECT_EQ(snapshot->version, 5U);
   EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
   EXPECT_EQ(map_file_bytes(read_map(fs::path(path)), MapFormat::uncertainty_ot), map->bytes);
+}
+
+TEST_F(SnapshotTest, KeepsWhatScansTaughtAnExpectedGain) {
+  write_snapshot(path, *store.bytes(MapFormat::uncertainty_ot));
+  EXPECT_FALSE(read_snapshot(path)->hazards) << "a robot whose gain is not expected learns none";
+  EXPECT_THAT(test::message_of<InputError>([&] { read_hazards(path); }),
+              HasSubstr("this map keeps no hazards"));
+
+  Robot robot = test::small_robot();
+  robot.sensor.gain = GainKind::expected;
+  MapStore learning(robot, ServerLimits{}, UncertaintyMap(0.1), 1);
+  learning.insert(test::small_scan(), test::scan_pose(0));
+  const HazardTable taught = learning.published()->hazards();
+  ASSERT_NE(taught, HazardTable());
+  const auto map = learning.bytes(MapFormat::uncertainty_ot);
+  write_snapshot(path, *map);
+  const auto snapshot = read_snapshot(path);
+  EXPECT_EQ(snapshot->version, 2U);
+  EXPECT_EQ(snapshot->hazards, taught);
+  EXPECT_EQ(read_hazards(path), taught);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
 }
 
 TEST_F(SnapshotTest, MayBeAnyMapFileOrNone) {
