@@ -61,6 +61,17 @@ std::string evaluation_count(const PlanResult& result) {
   return text;
 }
 
+/// Gains by name have no parts of the paper's gain.
+std::string sees_line(const ViewGain& view) {
+  if (view.gain > 0.0 && view.unknown_gain == 0.0 && view.occupied_gain == 0.0) {
+    return line("sees    %d rays end unknown, %d occupied, %d free", view.unknown_rays,
+                view.occupied_rays, view.free_rays);
+  }
+  return line("sees    %d rays end unknown (gain %.1f), %d occupied (gain %.1f), %d free",
+              view.unknown_rays, view.unknown_gain, view.occupied_rays, view.occupied_gain,
+              view.free_rays);
+}
+
 /// What was spent besides the search.
 std::string cost(const QueryAnswer& answer) {
   std::array<char, 96> text{};
@@ -131,15 +142,10 @@ std::string to_text(const QueryAnswer& answer) {
   text += line("from    %.3f, %.3f, %.3f m in the map, along %.3f, %.3f, %.3f", p.x(), p.y(), p.z(),
                forward.x(), forward.y(), forward.z());
   text += gain_line(result);
-  text += line("sees    %d rays end unknown (gain %.1f), %d occupied (gain %.1f), %d free",
-               result.view.unknown_rays, result.view.unknown_gain, result.view.occupied_rays,
-               result.view.occupied_gain, result.view.free_rays);
+  text += sees_line(result.view);
   if (result.hazards) {
-    double metres = 0.0;
-    for (std::size_t c = 0; c < HazardTable::kContexts; ++c) {
-      metres += result.hazards->count(c).metres;
-    }
-    text += line("unknown judged by what %.0f m of rays met, prior included", metres);
+    text += line("unknown judged by what %.0f m of rays met, prior included",
+                 result.hazards->total().metres);
   }
   text += "why     " + to_string(result.status) + ": " + result.message + '\n';
   if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';

@@ -27,7 +27,10 @@ class SearchingCamera : public CameraMode {
   NextView next_view(const ViewPlanner& planner, const PlanRequest& request,
                      const TrueGain& /*true_gain*/) const override {
     const PlanResult result = planner.plan(request, *solver_);
-    return {.joints = result.joints, .predicted_gain = result.view.gain};
+    NextView next{.joints = result.joints};
+    // Others have units of their own, which what is realised does not share.
+    if (planner.robot().sensor.gain.is_of_paper()) next.predicted_gain = result.view.gain;
+    return next;
   }
 
  private:

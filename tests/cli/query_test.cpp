@@ -122,6 +122,13 @@ TEST_F(CommandLine, QuerySearchesAnyGainExactly) {
   EXPECT_GT(grid["gain"], nbvopt_json(json_query(map_file, {"--solver", "grid"}))["gain"]);
 }
 
+TEST_F(CommandLine, QueryTellsNoPartsOfAGainThatHasNone) {
+  auto arguments = query(map_file);
+  EXPECT_THAT(nbvopt_run(arguments).out, HasSubstr("end unknown (gain "));
+  arguments.insert(arguments.end(), {"--gain", "unobserved_voxel", "--solver", "grid"});
+  EXPECT_THAT(nbvopt_run(arguments).out, HasSubstr("end unknown, "));
+}
+
 TEST_F(CommandLine, QueryTellsPeopleWhereToLook) {
   const ProcessResult result = nbvopt_run(query(map_file));
   EXPECT_EQ(result.exit_code, 0);

@@ -166,6 +166,12 @@ TEST(Episode, PredictsAnExpectedGainBetter) {
   EXPECT_GT(expected.correlation(), positive.correlation());
 }
 
+TEST(Episode, PredictsNothingByGainsOfOtherUnits) {
+  EpisodeOptions options = coarse_options();
+  options.robot.sensor.gain = GainKind::unobserved_voxel;
+  EXPECT_EQ(run("grid", options).summary.prediction.steps, 0U);
+}
+
 TEST(Episode, CountsWhatIsInTheMap) {
   const FinishedEpisode episode = run("auto", coarse_options());
   const MapCounts counts = episode.map.counts();

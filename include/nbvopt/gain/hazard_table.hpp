@@ -74,6 +74,16 @@ class HazardTable {
 
   double floor_map_m() const { return floor_map_m_; }
 
+  /// Of all contexts together.
+  HazardCount total() const {
+    HazardCount sum;
+    for (const HazardCount& count : counts_) {
+      sum.hits += count.hits;
+      sum.metres += count.metres;
+    }
+    return sum;
+  }
+
   bool operator==(const HazardTable&) const = default;
 
  private:
