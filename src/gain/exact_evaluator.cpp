@@ -1,4 +1,5 @@
 #include "gain/gain_sum_evaluator.hpp"
+#include "gain/normal_part.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
 
 namespace nbvopt {
@@ -22,6 +23,7 @@ class ExactEvaluator final : public ViewEvaluator {
     thread_local RayHits hits;
     thread_local GainScratch scratch;
     cast_rays(*grid_, rays, camera_.options().occupied_uncertainty, hits, level_);
+    detail::take_normal_part(*grid_, camera_.options().normal_weight, hits);
     return gain_model_->gain(hits, scratch);
   }
 

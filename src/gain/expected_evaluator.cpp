@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gain/angle_part.hpp"
+#include "gain/normal_part.hpp"
 #include "gain/passage_walk.hpp"
 #include "gain/ray_passages.hpp"
 #include "nbvopt/gain/view_evaluator.hpp"
@@ -20,6 +21,8 @@ class ExpectedEvaluator final : public ViewEvaluator {
         uncertainty_(camera.options()),
         passage_{hazards, uncertainty_.focal_distance_m()},
         angle_part_(detail::angle_part(uncertainty_, camera.rays())),
+        unknown_u_old_(kUnknownUncertainty -
+                       uncertainty_.normal_weight() * kUnseenNormalUncertainty),
         level_(level) {}
 
   std::string name() const override { return "exact"; }
@@ -30,11 +33,12 @@ class ExpectedEvaluator final : public ViewEvaluator {
     thread_local detail::RayPassages passages;
     const detail::RayWalk walk =
         detail::pass_rays(*grid_, rays, sensor.occupied_uncertainty, passage_, passages, level_);
+    detail::take_normal_part(*grid_, sensor.normal_weight, passages.end);
     ViewGain view;
     double unknown_gain = 0.0, occupied_gain = 0.0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const bool ends_occupied = passages.end.kind[i] == HitKind::occupied;
-      unknown_gain += passages.probability[i] * (1.0 - angle_part_[i]) -
+      unknown_gain += passages.probability[i] * (unknown_u_old_ - angle_part_[i]) -
                       uncertainty_.distance_weight() * passages.distance_uncertainty[i];
       if (ends_occupied) occupied_gain += passages.end_probability[i] * end_gain(passages.end, i);
       view.unknown_rays += passages.meets_unknown[i];
@@ -85,7 +89,8 @@ class ExpectedEvaluator final : public ViewEvaluator {
             detail::pass_piece(piece, passage_.hazards, rays.range_min_m[i], transmittance);
         if (passed.probability > 0.0) {
           raise(hidden[packed(piece.voxel)],
-                passed.probability * (1.0 - u_new(i, passed.mean_distance_m)), unknown_gain);
+                passed.probability * (unknown_u_old_ - u_new(i, passed.mean_distance_m)),
+                unknown_gain);
         }
         return true;
       };
@@ -103,6 +108,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
   UncertaintyModel uncertainty_;
   detail::PassageModel passage_;
   std::vector<double> angle_part_;  ///< of each ray's u
+  double unknown_u_old_;            ///< without the part of normals that are not known yet
   SimdLevel level_;
 };
 

@@ -39,6 +39,9 @@ std::unique_ptr<ViewEvaluator> make_evaluator(const std::string& name, const Unc
   if (sensor.counting == Counting::per_voxel) {
     throw UsageError("the paper-code evaluator counts per_ray only, use the evaluator exact");
   }
+  if (sensor.normal_weight > 0.0) {
+    throw UsageError("the paper-code evaluator knows no normals, use the evaluator exact");
+  }
   return make_paper_code_evaluator(map, sensor);
 }
 

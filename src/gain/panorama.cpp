@@ -107,6 +107,7 @@ class Panorama::Impl {
                 .near_blocking = sensor.near_blocking,
                 .occupied_uncertainty = sensor.occupied_uncertainty,
                 .weight_distance = model_.weight_distance,
+                .normal_weight = sensor.normal_weight,
                 .focal_distance_m = model_.focal_distance_m,
                 .farthest_view_m = farthest_view_m(),
                 .per_voxel = counting_ == Counting::per_voxel,

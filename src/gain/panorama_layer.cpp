@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gain/normal_part.hpp"
 #include "gain/passage_nodes.hpp"
 #include "gain/patch_culling.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
@@ -118,9 +119,11 @@ void PanoramaLayer::cast_run(std::span<const std::uint32_t> ids, Storage& storag
     rays.near_blocking = caster_.near_blocking;
     if (caster_.passage == nullptr) {
       cast_rays(caster_.grid, rays, caster_.occupied_uncertainty, storage.hits);
+      take_normal_part(caster_.grid, caster_.normal_weight, storage.hits);
     } else {
       pass_rays(caster_.grid, rays, caster_.occupied_uncertainty, *caster_.passage,
                 storage.passages);
+      take_normal_part(caster_.grid, caster_.normal_weight, storage.passages.end);
     }
     for (std::size_t i = 0; i < run; ++i) {
       fill(ids[first + i], storage, i * kRays, rays.T_map_rays.translation());
@@ -199,7 +202,9 @@ void PanoramaLayer::fill(std::uint32_t id, const Storage& storage, std::size_t f
                                       hits.direction_z[k]);
       for (const PassageNode& node : passage_nodes(storage.passages, k)) {
         if (node.probability < kNoShare) continue;
-        add(i, node.distance_m, node.probability, Face::inside, kUnknownUncertainty,
+        add(i, node.distance_m, node.probability, Face::inside,
+            static_cast<float>(kUnknownUncertainty -
+                               caster_.normal_weight * kUnseenNormalUncertainty),
             caster_.grid.lattice().key(origin_map_m + node.distance_m * direction));
       }
     }

@@ -24,6 +24,7 @@ struct LayerCaster {
   bool near_blocking;
   double occupied_uncertainty;
   double weight_distance;  ///< of u_d in u
+  double normal_weight;    ///< of u_n in u, which is taken off u_old
   double focal_distance_m;
   double farthest_view_m;  ///< how far views may be from where the layer was cast
   bool per_voxel;

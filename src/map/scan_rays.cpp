@@ -1,6 +1,7 @@
 #include "map/scan_rays.hpp"
 
 #include "map/scan_counting.hpp"
+#include "map/scan_normals.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
 
@@ -25,6 +26,9 @@ class RayCollector {
     rays_.ends.reserve(rays);
     rays_.hits.reserve(rays);
   }
+
+  /// Of all points, in the sensor frame; none where they do not count.
+  void set_normals(std::vector<Eigen::Vector3f> normals) { normals_ = std::move(normals); }
 
   void add_point(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
     const PointPlace place = place_of(p_sensor_m, sensor_, rays_.counts);
@@ -63,15 +67,25 @@ class RayCollector {
     const Eigen::Vector3d p_map_m = T_map_sensor_ * p_sensor_m;
     if (!lattice_.contains(p_map_m)) return false;
     rays_.ends.push_back(lattice_.to_lattice(p_map_m));
-    rays_.hits.push_back(
-        {lattice_.key(p_map_m), static_cast<float>(model_.uncertainty(p_sensor_m)), point});
+    const VoxelKey key = lattice_.key(p_map_m);
+    const double u = normals_.empty() ? model_.uncertainty(p_sensor_m)
+                                      : model_.uncertainty(p_sensor_m, normal_sensor(point, key));
+    rays_.hits.push_back({key, static_cast<float>(u), point});
     return true;
+  }
+
+  /// That of the last point added, or of the face by which its ray enters the voxel.
+  Eigen::Vector3d normal_sensor(std::uint32_t point, VoxelKey voxel) const {
+    if (!normals_[point].isZero()) return normals_[point].cast<double>();
+    return T_map_sensor_.linear().transpose() *
+           entered_face_normal(rays_.origin, rays_.ends.back(), voxel);
   }
 
   const Transform& T_map_sensor_;
   const SensorOptions& sensor_;
   UncertaintyModel model_;
   const Lattice& lattice_;
+  std::vector<Eigen::Vector3f> normals_;
   ScanRays rays_;
 };
 
@@ -81,6 +95,10 @@ ScanRays scan_rays(const Scan& scan, const Transform& T_map_sensor, const Sensor
                    const Lattice& lattice) {
   RayCollector collector(T_map_sensor, sensor, lattice);
   collector.reserve(scan.points_m.size() + scan.no_returns.size());
+  if (sensor.normal_weight > 0.0) {
+    collector.set_normals(
+        scan_normals(scan.points_m, sensor, sensor.horizontal_pixels, sensor.vertical_pixels));
+  }
   for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
     collector.add_point(scan.points_m[i].cast<double>(), static_cast<std::uint32_t>(i));
   }

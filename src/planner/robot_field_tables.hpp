@@ -36,6 +36,8 @@ inline constexpr auto kSensorFields = std::to_array<Field<SensorOptions>>({
         "rad; what Eq. 6 divides by, 0: the half field of view"),
     field<&SensorOptions::uncertainty_mode>("uncertainty_mode",
                                             "distance (Eq. 2), angle (Eq. 7) or both (Eq. 8)"),
+    field<&SensorOptions::normal_weight>(
+        "normal_weight", "0 to 1; the share of how slantwise a surface is seen in u"),
     field<&SensorOptions::ray_pattern>("ray_pattern", "pixel_centres or equal_angles"),
     field<&SensorOptions::range_axis>("range_axis", "euclidean or z_depth"),
     field<&SensorOptions::counting>("counting", "per_ray or per_voxel (Eq. 13)"),

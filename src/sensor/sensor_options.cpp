@@ -52,6 +52,8 @@ void SensorOptions::validate() const {
               "0 rad (the half field of view) or more");
   check_field(uncertainty_half_fov_vertical_rad >= 0.0, "sensor.uncertainty_half_fov_vertical_rad",
               uncertainty_half_fov_vertical_rad, "0 rad (the half field of view) or more");
+  check_field(normal_weight >= 0.0 && normal_weight < 1.0, "sensor.normal_weight", normal_weight,
+              "from 0 to less than 1");
   if (!gain.is_of_paper() && counting == Counting::per_voxel) {
     throw InputError("sensor.counting is per_voxel, gain " + to_string(gain) +
                      " is a sum over rays: set it to per_ray");

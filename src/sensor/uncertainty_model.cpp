@@ -15,7 +15,8 @@ UncertaintyModel::UncertaintyModel(const SensorOptions& options)
       half_fov_horizontal_rad_(
           or_else(options.uncertainty_half_fov_horizontal_rad, options.half_fov_horizontal_rad)),
       half_fov_vertical_rad_(
-          or_else(options.uncertainty_half_fov_vertical_rad, options.half_fov_vertical_rad)) {
+          or_else(options.uncertainty_half_fov_vertical_rad, options.half_fov_vertical_rad)),
+      normal_weight_(options.normal_weight) {
   switch (options.uncertainty_mode) {
     case UncertaintyMode::distance:
       distance_weight_ = 1.0;
@@ -30,6 +31,8 @@ UncertaintyModel::UncertaintyModel(const SensorOptions& options)
       angle_weight_ = 0.5;
       break;
   }
+  distance_weight_ *= 1.0 - normal_weight_;
+  angle_weight_ *= 1.0 - normal_weight_;
 }
 
 double UncertaintyModel::distance_uncertainty(double distance_m) const {
@@ -47,6 +50,11 @@ double UncertaintyModel::angle_uncertainty(const Eigen::Vector3d& direction_sens
   const double normalised_h = std::min(1.0, std::abs(alpha_h) / half_fov_horizontal_rad_);
   const double normalised_v = std::min(1.0, std::abs(alpha_v) / half_fov_vertical_rad_);
   return (normalised_h + normalised_v) / 2.0;  // Equation (7)
+}
+
+double UncertaintyModel::normal_uncertainty(const Eigen::Vector3d& normal,
+                                            const Eigen::Vector3d& direction) {
+  return normal.isZero() ? kUnseenNormalUncertainty : 1.0 - std::abs(normal.dot(direction));
 }
 
 double UncertaintyModel::uncertainty(const Eigen::Vector3d& p_sensor_m) const {

@@ -119,6 +119,12 @@ INSTANTIATE_TEST_SUITE_P(
                 [](PanoramaWorld& world) { world.sensor.range_axis = RangeAxis::z_depth; }},
         Variant{"paper_code",
                 [](PanoramaWorld& world) { world.sensor = paper_code_sensor(world.sensor); }},
+        Variant{"normals", [](PanoramaWorld& world) { world.sensor.normal_weight = 0.4; }},
+        Variant{"expected_normals",
+                [](PanoramaWorld& world) {
+                  world.sensor.normal_weight = 0.4;
+                  world.sensor.gain = GainKind::expected;
+                }},
         Variant{"distance_alone",
                 [](PanoramaWorld& world) {
                   world.sensor.uncertainty_mode = UncertaintyMode::distance;

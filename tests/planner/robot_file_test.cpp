@@ -45,6 +45,7 @@ TEST(RobotFile, ReadsBackEveryFieldThatItWrites) {
                   .uncertainty_half_fov_horizontal_rad = 0.52,
                   .uncertainty_half_fov_vertical_rad = 0.41,
                   .uncertainty_mode = UncertaintyMode::angle,
+                  .normal_weight = 0.25,
                   .ray_pattern = RayPattern::equal_angles,
                   .range_axis = RangeAxis::z_depth,
                   .counting = Counting::per_voxel,

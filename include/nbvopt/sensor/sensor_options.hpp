@@ -43,6 +43,7 @@ struct SensorOptions {
   double uncertainty_half_fov_horizontal_rad = 0.0;
   double uncertainty_half_fov_vertical_rad = 0.0;
   UncertaintyMode uncertainty_mode = UncertaintyMode::both;
+  double normal_weight = 0.0;  ///< of u_n in u; the mode's u has the rest
   RayPattern ray_pattern = RayPattern::pixel_centres;
   RangeAxis range_axis = RangeAxis::euclidean;
   Counting counting = Counting::per_ray;

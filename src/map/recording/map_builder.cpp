@@ -53,7 +53,7 @@ void add(const SensorOptions& sensor, Fingerprint& fingerprint) {
   for (const double number :
        {sensor.half_fov_horizontal_rad, sensor.half_fov_vertical_rad, sensor.range_min_m,
         sensor.range_max_m, sensor.focal_distance_m, sensor.uncertainty_half_fov_horizontal_rad,
-        sensor.uncertainty_half_fov_vertical_rad}) {
+        sensor.uncertainty_half_fov_vertical_rad, sensor.normal_weight}) {
     fingerprint.add(number);
   }
   fingerprint.add(to_string(sensor.uncertainty_mode));
