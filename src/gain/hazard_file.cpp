@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 
 #include "core/atomic_file.hpp"
@@ -95,15 +96,23 @@ HazardTable parse_hazards(const std::string& text, const std::string& name) {
 }
 
 std::string hazards_comment(const HazardTable& hazards) {
-  return std::string(kComment) + to_json(hazards).dump() + '\n';
+  // Line by line, since a map's header may have no long ones.
+  std::istringstream json(hazards_json(hazards));
+  std::string comment;
+  for (std::string line; std::getline(json, line);) {
+    comment += std::string(kComment) + line + '\n';
+  }
+  return comment;
 }
 
 std::optional<HazardTable> hazards_in_header(std::istream& map, const std::string& name) {
+  std::string json;
   std::string line;
   while (map.peek() == '#' && std::getline(map, line)) {
-    if (line.starts_with(kComment)) return parse_hazards(line.substr(kComment.size()), name);
+    if (line.starts_with(kComment)) json += line.substr(kComment.size()) + '\n';
   }
-  return std::nullopt;
+  if (json.empty()) return std::nullopt;
+  return parse_hazards(json, name);
 }
 
 }  // namespace nbvopt

@@ -57,6 +57,18 @@ TEST_F(SnapshotTest, KeepsWhatScansTaughtAnExpectedGain) {
   EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
 }
 
+TEST_F(SnapshotTest, KeepsCountsOfManyDigits) {
+  MapBytes map = *store.bytes(MapFormat::uncertainty_ot);
+  map.hazards = HazardTable(0.1 / 3.0);
+  for (std::size_t c = 0; c < HazardTable::kContexts; ++c) {
+    map.hazards->set(c, {.hits = 100.0 / 3.0, .metres = 1000.0 / 7.0});
+  }
+  write_snapshot(path, map);
+  const auto snapshot = read_snapshot(path);
+  EXPECT_EQ(snapshot->hazards, map.hazards);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map.bytes);
+}
+
 TEST_F(SnapshotTest, MayBeAnyMapFileOrNone) {
   EXPECT_FALSE(read_snapshot(path));
   write_map(test::small_map(), path, MapFormat::uncertainty_ot);

@@ -30,10 +30,10 @@ HazardTable read_hazards(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages.
 HazardTable parse_hazards(const std::string& json, const std::string& name);
 
-/// The table as a comment line of a map's header, which other programs skip.
+/// The table as comment lines of a map's header, which other programs skip.
 std::string hazards_comment(const HazardTable& hazards);
 
-/// What such a line among the comments that a map begins with tells; none where there is no such
+/// What such lines among the comments that a map begins with tell; none where there is no such
 /// line. Throws as read_hazards() does.
 std::optional<HazardTable> hazards_in_header(std::istream& map, const std::string& name);
 
