@@ -2,6 +2,7 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
@@ -77,6 +78,14 @@ void check_map(const ServerOptions& server) {
       "there is no map to start with: name a MAP, or give --create M for an empty one");
 }
 
+/// A client is a descriptor, and the soft limit is often 1,024 though the hard one is far higher.
+void allow_all_descriptors() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);  // where it is refused, the limit is as it was
+}
+
 void run_serve(ServeOptions& options) {
   ServerOptions& server_options = options.server;
   check_map(server_options);
@@ -95,6 +104,7 @@ void run_serve(ServeOptions& options) {
   const ThreadLimit thread_limit(options.robot);
   const EndSignals signals;
   set_up_log(options.log_level);
+  allow_all_descriptors();
   Server server(server_options);
   print_answer("listening on " + server.address() + "\n");
   const int signal = signals.wait();

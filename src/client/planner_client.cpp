@@ -28,6 +28,8 @@ ServerErrorKind kind_of(const grpc::Status& status) {
       return ServerErrorKind::cancelled;
     case grpc::StatusCode::UNAVAILABLE:
       return ServerErrorKind::unavailable;
+    case grpc::StatusCode::DATA_LOSS:
+      return ServerErrorKind::not_saved;
     case grpc::StatusCode::INTERNAL:
     case grpc::StatusCode::UNKNOWN:
       return ServerErrorKind::internal;

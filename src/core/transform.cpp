@@ -3,11 +3,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
 
 Transform base_pose(double x_m, double y_m, double z_m, double yaw_rad) {
+  constexpr double kFarthestTurned_rad = 1e4;  // beyond, a slip of the unit
+  if (std::isfinite(yaw_rad) && std::abs(yaw_rad) > kFarthestTurned_rad) {
+    throw InputError("base: yaw is " + format_number(yaw_rad) + " rad, it must be within " +
+                     format_number(kFarthestTurned_rad) + " rad of 0");
+  }
   Transform T_map_base = Transform::Identity();
   T_map_base.translate(Eigen::Vector3d(x_m, y_m, z_m));
   T_map_base.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));

@@ -95,6 +95,12 @@ JointPosition Mast::on_the_way(const JointPosition& from, const JointPosition& t
 }
 
 JointPosition Mast::clamped(const JointPosition& q, std::vector<std::string>& warnings) const {
+  constexpr double kFarthestTurned_rad = 1e4;  // beyond, doubles lose what a search resolves
+  if (options_.pan_continuous && std::abs(q.pan_rad) > kFarthestTurned_rad &&
+      std::isfinite(q.pan_rad)) {
+    throw InputError("pan is " + format_number(q.pan_rad) + " rad, it must be within " +
+                     format_number(kFarthestTurned_rad) + " rad of 0: take whole turns off it");
+  }
   const JointBox joint_limits = limits(options_);
   Eigen::Vector3d inside = q.vector();
   for (const Joint joint : kJoints) {

@@ -67,7 +67,11 @@ class Tls:
 
 
 class PlannerError(Exception):
-    """A call that failed on the server, on the way there or by its timeout."""
+    """A call that failed on the server, on the way there or by its timeout.
+
+    `code` tells what to do: RESOURCE_EXHAUSTED to ask again later, DATA_LOSS that the server's disk
+    is full or faulty, INVALID_ARGUMENT that the same call will fail again.
+    """
 
     def __init__(self, address: str, code: grpc.StatusCode, message: str):
         super().__init__(f"{address}: {message} ({code.name})")

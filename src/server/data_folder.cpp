@@ -49,6 +49,12 @@ bool is_link(int folder, const char* name) {
   return ::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode);
 }
 
+/// Whether the request was right and the disk is to blame.
+bool is_of_disk(const std::error_code& error) {
+  return error == std::errc::no_space_on_device || error == std::errc::file_too_large ||
+         error == std::errc::io_error || error.value() == EDQUOT;
+}
+
 }  // namespace
 
 DataFolder::DataFolder(const fs::path& folder, std::vector<fs::path> kept_files)
@@ -110,7 +116,9 @@ void DataFolder::write(const std::string& text, std::string_view bytes) const {
   try {
     write_file_atomically_at(parent.get(), name, bytes);
   } catch (const std::system_error& error) {
-    throw InputError("'" + text + "': cannot be written: " + error.code().message());
+    const std::string message = "'" + text + "': cannot be written: " + error.code().message();
+    if (is_of_disk(error.code())) throw RequestError(grpc::StatusCode::DATA_LOSS, message);
+    throw InputError(message);
   }
 }
 

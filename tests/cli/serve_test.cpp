@@ -1,4 +1,5 @@
 // nbvopt serve, as its users start, stop and kill it.
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <atomic>
@@ -39,6 +40,13 @@ TEST_F(Serve, EndsOnSignalsWithItsMapSaved) {
     EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), bytes);
     EXPECT_THAT(server.log(), HasSubstr("event=stopped"));
   }
+}
+
+TEST_F(Serve, TakesAllDescriptorsThatItMayHave) {
+  Served served(server, server.arguments());
+  rlimit limit{};
+  ASSERT_EQ(::prlimit(served.process().id(), RLIMIT_NOFILE, nullptr, &limit), 0);
+  EXPECT_EQ(limit.rlim_cur, limit.rlim_max);
 }
 
 TEST_F(Serve, CancelsWhatIsInFlightWhenItEnds) {

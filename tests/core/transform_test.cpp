@@ -13,6 +13,12 @@ namespace {
 
 using std::numbers::pi;
 
+TEST(BasePose, RefusesAYawThatIsNoAngle) {
+  EXPECT_THROW(base_pose(0, 0, 0, 1e300), InputError);
+  EXPECT_THROW(base_pose(0, 0, 0, -2e4), InputError);
+  EXPECT_NO_THROW(base_pose(0, 0, 0, 9999.0));
+}
+
 TEST(BasePose, TurnsCounterClockwiseThenMoves) {
   const Transform T_map_base = base_pose(1.0, 2.0, 0.3, pi / 2);
   const Eigen::Vector3d p_map = T_map_base * Eigen::Vector3d(1.0, 0.0, 0.0);

@@ -184,6 +184,11 @@ TEST(Clamped, RefusesMore) {
                 mast.clamped({0.0, kNaN, 0.3}, warnings);
               }),
               HasSubstr("tilt is nan rad"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                Mast(MastOptions{}).clamped({1e17, 0.0, 0.3}, warnings);
+              }),
+              AllOf(HasSubstr("pan is 1e+17 rad"), HasSubstr("within 10000 rad")))
+      << "a search that adds to it would change nothing";
   EXPECT_THROW(
       Mast(MastOptions{}).clamped({std::numeric_limits<double>::infinity(), 0, 0.3}, warnings),
       InputError);

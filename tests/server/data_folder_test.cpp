@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+
+#include <csignal>
 
 #include "core/text_file.hpp"
 #include "server/call_status.hpp"
@@ -56,6 +59,30 @@ TEST_F(DataFolderTest, LetsNobodyOut) {
   EXPECT_NE(refusal_to_open(std::string("maps/a.ot\0.png", 14)), "");
   EXPECT_EQ(read_text_file(folder / "secret"), "secret");
   EXPECT_TRUE(fs::is_symlink(folder / "data/link"));
+}
+
+TEST_F(DataFolderTest, TellsAFullDiskFromABadRequest) {
+  // A file size limit stands for a full disk: what is beyond it is refused.
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{.rlim_cur = 16, .rlim_max = limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  grpc::StatusCode code = grpc::StatusCode::OK;
+  try {
+    DataFolder(folder / "data").write("maps/a.ot", std::string(1000, 'x'));
+  } catch (const RequestError& error) {
+    code = error.code();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(code, grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(read_text_file(folder / "data/maps/a.ot"), "a") << "what was there stays";
+}
+
+TEST_F(DataFolderTest, WritesOutAZeroByteOfAName) {
+  const std::string name("maps/a\0b/c.ot", 13);
+  EXPECT_THAT(refusal_to_write(name), AllOf(HasSubstr("maps/a\\0b"), HasSubstr("': ")));
 }
 
 TEST_F(DataFolderTest, SaysWhatIsWrongWithoutTellingWhereItIs) {

@@ -25,6 +25,7 @@ enum class ServerErrorKind {
   timeout,
   cancelled,
   unavailable,  ///< no server there, or it ended
+  not_saved,    ///< what was to be saved was not written: the server's disk is full or faulty
   internal,     ///< a fault of the server
 };
 

@@ -1,6 +1,7 @@
 // The library's errors. Each message is one line that names the thing and the remedy.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -9,7 +10,16 @@ namespace nbvopt {
 /// Base of every error that the library throws on purpose.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// A zero byte, at which what() would end, is written out.
+  explicit Error(const std::string& message) : std::runtime_error(with_zeros_escaped(message)) {}
+
+ private:
+  static std::string with_zeros_escaped(std::string message) {
+    for (std::size_t i = 0; (i = message.find('\0', i)) != std::string::npos;) {
+      message.replace(i, 1, "\\0");
+    }
+    return message;
+  }
 };
 
 /// Data or a value that cannot be used: a file, a field, a pose. Command lines exit with 3.

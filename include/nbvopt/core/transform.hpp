@@ -13,6 +13,7 @@ namespace nbvopt {
 using Transform = Eigen::Isometry3d;
 
 /// T_map_base of a base that stands at (x, y, z), turned by yaw about the map's z axis.
+/// Throws InputError for a finite yaw beyond 1e4 rad.
 Transform base_pose(double x_m, double y_m, double z_m, double yaw_rad);
 
 /// The rotation that takes optical to body axes: body x = optical z, body y = -optical x,
