@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 /// The path, checked as text. Throws RequestError.
 fs::path checked(const std::string& text) {
-  const fs::path path(text);
+  fs::path path(text);
   const auto refuse = [&text](const char* why) {
     throw RequestError(grpc::StatusCode::PERMISSION_DENIED, "'" + text + "': " + why);
   };

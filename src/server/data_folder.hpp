@@ -20,10 +20,10 @@ class DataFolder {
                       std::vector<std::filesystem::path> kept_files = {});
 
   /// A file for reading. Throws RequestError: a path that leads out, a link, no such file.
-  Descriptor open(const std::string& path) const;
+  Descriptor open(const std::string& text) const;
 
   /// Writes a file atomically. Throws RequestError as above, and InputError when the disk is full.
-  void write(const std::string& path, std::string_view bytes) const;
+  void write(const std::string& text, std::string_view bytes) const;
 
  private:
   /// The folder that holds the file of that path.

@@ -28,7 +28,7 @@ void write_hazards(const HazardTable& hazards, const std::filesystem::path& path
 HazardTable read_hazards(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in messages.
-HazardTable parse_hazards(const std::string& json, const std::string& name);
+HazardTable parse_hazards(const std::string& text, const std::string& name);
 
 /// The table as comment lines of a map's header, which other programs skip.
 std::string hazards_comment(const HazardTable& hazards);

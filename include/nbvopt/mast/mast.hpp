@@ -13,7 +13,7 @@ namespace nbvopt {
 /// The joints in the order of every 3-vector q = (pan, tilt, height).
 enum class Joint { pan = 0, tilt = 1, height = 2 };
 inline constexpr std::array<Joint, 3> kJoints{Joint::pan, Joint::tilt, Joint::height};
-std::string to_string(Joint joint);
+std::string to_string(Joint value);
 
 /// Pan turns about base z, counter-clockwise from above; positive tilt looks up; height is the
 /// optical centre's z above the base when the sensor offset is zero.
