@@ -21,8 +21,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
         uncertainty_(camera.options()),
         passage_{hazards, uncertainty_.focal_distance_m()},
         angle_part_(detail::angle_part(uncertainty_, camera.rays())),
-        unknown_u_old_(kUnknownUncertainty -
-                       uncertainty_.normal_weight() * kUnseenNormalUncertainty),
+        unknown_u_old_(detail::unknown_without_normal_part(uncertainty_.normal_weight())),
         level_(level) {}
 
   std::string name() const override { return "exact"; }

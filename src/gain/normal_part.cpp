@@ -12,7 +12,7 @@ namespace {
 /// The normal of the face by which a ray enters a voxel; zero where it starts inside.
 Eigen::Vector3d face_normal(Face face) {
   if (face == Face::inside) return Eigen::Vector3d::Zero();
-  return Eigen::Vector3d::Unit((static_cast<int>(face) - 1) / 2);
+  return Eigen::Vector3d::Unit(axis_of(face));
 }
 
 /// A voxel and its 26 neighbours, as far as the lattice goes.
@@ -61,6 +61,10 @@ Eigen::Vector3d surface_normal(const VoxelGrid& grid, VoxelKey voxel) {
   constexpr double kCancelledOut = 0.1;
   const double length = sum.norm();
   return length > kCancelledOut ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::Zero();
+}
+
+double unknown_without_normal_part(double weight) {
+  return kUnknownUncertainty - weight * kUnseenNormalUncertainty;
 }
 
 void take_normal_part(const VoxelGrid& grid, double weight, RayHits& hits) {

@@ -173,7 +173,7 @@ void PanoramaLayer::fill(std::uint32_t id, const Storage& storage, std::size_t f
                         std::max(0.0, distance_m + directions.apex_beside[id]) *
                         std::max(0.0, distance_m + directions.apex_above[id]);
     Eigen::Vector3d area = Eigen::Vector3d::Zero();
-    const int axis = (static_cast<int>(face) - 1) / 2;
+    const int axis = axis_of(face);
     if (face == Face::inside || std::abs(direction[axis]) < kGrazing) {
       area = seen * direction;
     } else {
@@ -203,8 +203,7 @@ void PanoramaLayer::fill(std::uint32_t id, const Storage& storage, std::size_t f
       for (const PassageNode& node : passage_nodes(storage.passages, k)) {
         if (node.probability < kNoShare) continue;
         add(i, node.distance_m, node.probability, Face::inside,
-            static_cast<float>(kUnknownUncertainty -
-                               caster_.normal_weight * kUnseenNormalUncertainty),
+            static_cast<float>(unknown_without_normal_part(caster_.normal_weight)),
             caster_.grid.lattice().key(origin_map_m + node.distance_m * direction));
       }
     }

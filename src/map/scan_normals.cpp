@@ -24,7 +24,9 @@ class PointImage {
         largest_step_(kSteepest *
                       static_cast<float>(2.0 * sensor.half_fov_horizontal_rad / width)) {
     for (std::size_t i = 0; i < points_m.size(); ++i) {
-      if (const auto pixel = pixel_of(points_m[i])) at(*pixel) = static_cast<std::uint32_t>(i);
+      if (const auto pixel = pixel_of(points_m[i])) {
+        indices_[place_of(*pixel)] = static_cast<std::uint32_t>(i);
+      }
     }
   }
 
@@ -60,9 +62,10 @@ class PointImage {
     return 0.5 * (1.0 + tangent / std::tan(half_fov_rad)) * pixels;
   }
 
-  std::uint32_t& at(const Eigen::Vector2i& pixel) {
-    return indices_[static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(pixel.x())];
+  /// Row by row.
+  std::size_t place_of(const Eigen::Vector2i& pixel) const {
+    return static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(pixel.x());
   }
 
   /// The neighbour that is on one surface with the point, or the point.
@@ -71,9 +74,7 @@ class PointImage {
     if (pixel.x() < 0 || pixel.x() >= width_ || pixel.y() < 0 || pixel.y() >= height_) {
       return point_m;
     }
-    const std::uint32_t i =
-        indices_[static_cast<std::size_t>(pixel.y()) * static_cast<std::size_t>(width_) +
-                 static_cast<std::size_t>(pixel.x())];
+    const std::uint32_t i = indices_[place_of(pixel)];
     if (i == kNone) return point_m;
     const float range_m = point_m.norm();
     const bool is_near = std::abs(points_m_[i].norm() - range_m) <= largest_step_ * range_m;

@@ -14,10 +14,9 @@ namespace {
 
 using test::nbvopt_json;
 using test::nbvopt_run;
+using test::office_world;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-std::string office_world() { return (test::datasets_dir() / "office.world").string(); }
 
 /// Five seconds of standing in the shipped office.
 std::string standing_drive(const TemporaryFolder& folder) {

@@ -30,6 +30,9 @@ inline nlohmann::json nbvopt_json(const std::vector<std::string>& arguments,
   return nlohmann::json::parse(result.out, nullptr, false);
 }
 
+/// The world of the office that ships.
+inline std::string office_world() { return (datasets_dir() / "office.world").string(); }
+
 /// The objects of a file with one JSON object a line.
 inline std::vector<nlohmann::json> lines_of(const std::string& file) {
   std::vector<nlohmann::json> objects;

@@ -11,10 +11,9 @@ namespace {
 
 using test::nbvopt_json;
 using test::nbvopt_run;
+using test::office_world;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-std::string office_world() { return (test::datasets_dir() / "office.world").string(); }
 
 std::string world_of_box(const std::string& size, const std::string& more = "") {
   return "<sdf version='1.6'><world name='w'><model name='m'><link name='l'><visual name='v'>"

@@ -22,6 +22,9 @@ enum class HitKind : std::uint8_t {
 /// The face by which a ray enters a voxel, named by the direction of travel.
 enum class Face : std::uint8_t { inside, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
+/// The axis across a face: 0 for x, 1 for y, 2 for z; not for a ray that starts inside.
+constexpr int axis_of(Face face) { return (static_cast<int>(face) - 1) / 2; }
+
 /// Rays from one origin, structure of arrays: unit directions in a frame of the caller's (the
 /// sensor's, say), and the distances between which the first non-free voxel decides. All spans
 /// have one size.
