@@ -22,8 +22,8 @@ class DataFolder {
   /// A file for reading. Throws RequestError: a path that leads out, a link, no such file.
   Descriptor open(const std::string& text) const;
 
-  /// Writes a file atomically. Throws RequestError as above, of code DATA_LOSS where the disk is full
-  /// or faulty, and InputError for what else keeps it from being written.
+  /// Writes a file atomically. Throws RequestError as above, of code DATA_LOSS where the disk is
+  /// full or faulty, and InputError for what else keeps it from being written.
   void write(const std::string& text, std::string_view bytes) const;
 
  private:
