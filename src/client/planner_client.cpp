@@ -200,6 +200,9 @@ ServerStatus PlannerClient::status(bool with_counts) {
           .snapshot_error = reply.snapshot_error(),
           .resolution_m = reply.resolution_m(),
           .scans = reply.scans(),
+          .connections = reply.connections(),
+          .connections_refused = reply.connections_refused(),
+          .connections_silent = reply.connections_silent(),
           .counts = from_message(reply.counts()),
           .paper_counts = {.voxels = reply.counts().paper_voxels(),
                            .information = reply.counts().paper_information()}};

@@ -20,6 +20,9 @@ class Descriptor {
   int get() const { return descriptor_; }
   bool is_open() const { return descriptor_ >= 0; }
 
+  /// Gives it away, open.
+  int release() { return std::exchange(descriptor_, -1); }
+
   /// Full disks of network file systems show only here.
   bool close() {
     const int descriptor = std::exchange(descriptor_, -1);

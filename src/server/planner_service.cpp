@@ -10,8 +10,10 @@ namespace nbvopt {
 using grpc::CallbackServerContext;
 using grpc::ServerUnaryReactor;
 
-PlannerService::PlannerService(RequestHandler& handler, std::size_t planning_threads)
+PlannerService::PlannerService(RequestHandler& handler, const ConnectionLog& connections,
+                               std::size_t planning_threads)
     : handler_(handler),
+      connections_(connections),
       streams_(handler.limits().max_streams),
       planning_(planning_threads, static_cast<std::size_t>(handler.limits().max_waiting)),
       mapping_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
@@ -87,6 +89,7 @@ ServerUnaryReactor* PlannerService::GetStatus(CallbackServerContext* context,
                           std::chrono::steady_clock::now() - start_;
                       reply->set_uptime_s(uptime.count());
                       log_.write(*reply);
+                      connections_.write(*reply);
                     });
 }
 

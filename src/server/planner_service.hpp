@@ -12,6 +12,7 @@
 
 #include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/call_log.hpp"
+#include "server/connection_log.hpp"
 #include "server/limits.hpp"
 #include "server/request_handler.hpp"
 #include "server/work_queue.hpp"
@@ -20,8 +21,10 @@ namespace nbvopt {
 
 class PlannerService final : public v1::Planner::CallbackService {
  public:
-  /// Plans on `planning_threads`. The handler must outlive the service, and the service the server.
-  PlannerService(RequestHandler& handler, std::size_t planning_threads);
+  /// Plans on `planning_threads`. Handler and log must outlive the service, and the service the
+  /// server.
+  PlannerService(RequestHandler& handler, const ConnectionLog& connections,
+                 std::size_t planning_threads);
 
   grpc::ServerUnaryReactor* Plan(grpc::CallbackServerContext* context,
                                  const v1::PlanRequest* request, v1::PlanReply* reply) override;
@@ -52,6 +55,7 @@ class PlannerService final : public v1::Planner::CallbackService {
 
  private:
   RequestHandler& handler_;
+  const ConnectionLog& connections_;
   CallLog log_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   OpenStreams streams_;

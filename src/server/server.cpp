@@ -5,9 +5,7 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
 
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +15,8 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 #include "nbvopt/map/map_file.hpp"
+#include "server/acceptor.hpp"
+#include "server/listening_socket.hpp"
 #include "server/planner_service.hpp"
 #include "server/snapshot_file.hpp"
 
@@ -56,18 +56,6 @@ void log_grpc(gpr_log_func_args* line) {
   spdlog::debug("event=grpc message=\"{}\"", line->message);
 }
 
-/// Files made meanwhile, sockets too, are nobody else's.
-class PrivateFiles {
- public:
-  PrivateFiles() : before_(::umask(0177)) {}
-  PrivateFiles(const PrivateFiles&) = delete;
-  PrivateFiles& operator=(const PrivateFiles&) = delete;
-  ~PrivateFiles() { ::umask(before_); }
-
- private:
-  mode_t before_;
-};
-
 }  // namespace
 
 /// In the order in which they are needed; they go in the opposite one.
@@ -80,7 +68,7 @@ struct Server::Parts {
     if (!options.data_folder.empty()) data.emplace(options.data_folder, own_files());
     handler.emplace(*store, snapshots ? &*snapshots : nullptr, data ? &*data : nullptr,
                     options.limits);
-    service.emplace(*handler, options.planning_threads);
+    service.emplace(*handler, connection_log, options.planning_threads);
     listen();
   }
 
@@ -108,34 +96,63 @@ struct Server::Parts {
   }
 
   void listen() {
+    std::vector<Descriptor> sockets = listen_on(address);
+    start_server();
+    const auto most = static_cast<std::size_t>(options.limits.max_connections);
+    const SocketBudget budget = socket_budget(most);
+    if (budget.connections < most) {
+      spdlog::warn("event=few_descriptors max_connections={} note=\"raise ulimit -n\"",
+                   budget.connections);
+    }
+    acceptor.emplace(
+        std::move(sockets), budget, connection_log,
+        Acceptor::Hooks{
+            .hand_over =
+                [this](int connection, int listening) {
+                  grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters it;
+                  it.fd = connection;
+                  it.listener_fd = listening;
+                  connections->HandleNewConnection(&it);
+                },
+            .on_room =
+                [this](bool has_room) {
+                  // Who watches it may go to another server.
+                  server->GetHealthCheckService()->SetServingStatus(has_room);
+                }});
+  }
+
+  void start_server() {
     gpr_set_log_function(log_grpc);
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
-    int port = -1;
-    builder.AddListeningPort(address.text, credentials(options.tls), &port);
+    connections = builder.experimental().AddExternalConnectionAcceptor(
+        grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
+        credentials(options.tls));
     builder.RegisterService(&*service);
     // gRPC refuses without naming the limit; the handler names it for what goes a little beyond.
     const std::int64_t hard_limit_mib = options.limits.max_message_mib + 16;
     builder.SetMaxReceiveMessageSize(static_cast<int>(hard_limit_mib << 20));
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server must not share it
+    // Who connects and does not speak HTTP/2 to the end of its greeting.
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 10'000);
     // Clients that are gone without a word.
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 20'000);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
-    {
-      const PrivateFiles only_mine;
-      server = builder.BuildAndStart();
-    }
-    if (server == nullptr || port < 0) {
-      throw InputError("cannot listen on " + address.text +
-                       ": it is in use, or not of this machine, or its certificates do not fit");
-    }
-    if (address.socket) {
-      ::chmod(address.socket->c_str(), 0600);
-    } else {
-      address.text.replace(address.text.rfind(':') + 1, std::string::npos, std::to_string(port));
+    // Who asks nothing gives its place away; its next call connects again by itself.
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
+    server = builder.BuildAndStart();
+    if (server == nullptr) {
+      throw InputError("cannot listen on " + address.text + ": its certificates do not fit");
     }
     server->GetHealthCheckService()->SetServingStatus(v1::Planner::service_full_name(), true);
+  }
+
+  /// Calls in flight have until then.
+  void stop_listening(std::chrono::system_clock::time_point calls_end_at) {
+    if (acceptor) acceptor->stop();
+    std::error_code ignored;
+    if (address.socket) fs::remove(*address.socket, ignored);
+    if (server) server->Shutdown(calls_end_at);
   }
 
   const ServerOptions options;
@@ -146,8 +163,11 @@ struct Server::Parts {
   std::optional<MapStore> store;
   std::optional<SnapshotKeeper> snapshots;
   std::optional<RequestHandler> handler;
+  ConnectionLog connection_log;
   std::optional<PlannerService> service;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> connections;
   std::unique_ptr<grpc::Server> server;
+  std::optional<Acceptor> acceptor;
 };
 
 Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(options)) {
@@ -158,16 +178,14 @@ Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(op
   }
 }
 
-Server::~Server() {
-  if (parts_->server) parts_->server->Shutdown(std::chrono::system_clock::now());
-}
+Server::~Server() { parts_->stop_listening(std::chrono::system_clock::now()); }
 
 std::string Server::address() const { return parts_->address.text; }
 
 void Server::stop() {
   constexpr std::chrono::seconds kGrace{1};
   parts_->server->GetHealthCheckService()->SetServingStatus(false);
-  parts_->server->Shutdown(std::chrono::system_clock::now() + kGrace);
+  parts_->stop_listening(std::chrono::system_clock::now() + kGrace);
   if (parts_->snapshots) parts_->snapshots->save();
   spdlog::info("event=stopped map_version={} durable_version={}",
                parts_->store->published()->map_version(), parts_->handler->durable_version());

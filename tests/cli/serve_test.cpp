@@ -1,6 +1,8 @@
 // nbvopt serve, as its users start, stop and kill it.
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <atomic>
 #include <csignal>
@@ -8,6 +10,7 @@
 
 #include "cli/query_command.hpp"
 #include "cli/served.hpp"
+#include "core/descriptor.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "server/snapshot_file.hpp"
 #include "support/paths.hpp"
@@ -24,6 +27,14 @@ using testing::StartsWith;
 
 class Serve : public ::testing::Test {
  protected:
+  /// What /bin/sh runs to start a server under a limit of its own.
+  std::vector<std::string> under_limit(const std::string& limit,
+                                       const std::vector<std::string>& more) const {
+    std::string command = "ulimit " + limit + "; exec '" + cli_program() + "'";
+    for (const std::string& word : server.arguments(more)) command += " '" + word + "'";
+    return {"-c", command};
+  }
+
   ServerFolder server;
 };
 
@@ -47,6 +58,29 @@ TEST_F(Serve, TakesAllDescriptorsThatItMayHave) {
   rlimit limit{};
   ASSERT_EQ(::prlimit(served.process().id(), RLIMIT_NOFILE, nullptr, &limit), 0);
   EXPECT_EQ(limit.rlim_cur, limit.rlim_max);
+}
+
+/// A client that connects and says nothing.
+Descriptor silent_client(const std::string& path) {
+  Descriptor client(::socket(AF_UNIX, SOCK_STREAM, 0));
+  sockaddr_un where{};
+  where.sun_family = AF_UNIX;
+  path.copy(where.sun_path, sizeof(where.sun_path) - 1);
+  EXPECT_EQ(::connect(client.get(), reinterpret_cast<sockaddr*>(&where), sizeof(where)), 0);
+  return client;
+}
+
+TEST_F(Serve, ServesWhileAndAfterSilentClientsTakeAllDescriptors) {
+  const Served served(server, under_limit("-n 100", {"--snapshot-every", "0.01"}), "/bin/sh");
+  {
+    std::vector<Descriptor> silent;
+    for (int i = 0; i < 300; ++i) silent.push_back(silent_client(server.folder / "socket"));
+    PlannerClient client(served.address());
+    const std::uint64_t version = client.insert_scan(small_scan(), scan_pose(0)).map_version;
+    EXPECT_TRUE(wait_until([&] { return client.status().durable_version == version; }));
+    EXPECT_GT(client.status().connections_silent, 200U);
+  }
+  EXPECT_EQ(PlannerClient(served.address()).status().connections_refused, 0U);
 }
 
 TEST_F(Serve, CancelsWhatIsInFlightWhenItEnds) {
@@ -139,11 +173,7 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
 
 TEST_F(Serve, SaysWhenTheDiskIsFullAndGoesOn) {
   // The largest file that it may write: 4 blocks of 512 bytes.
-  std::string command = "ulimit -f 4; exec '" + cli_program() + "'";
-  for (const std::string& word : server.arguments({"--snapshot-every", "0.01"})) {
-    command += " '" + word + "'";
-  }
-  Served served(server, {"-c", command}, "/bin/sh");
+  Served served(server, under_limit("-f 4", {"--snapshot-every", "0.01"}), "/bin/sh");
   PlannerClient client(served.address());
   EXPECT_EQ(client.status().durable_version, 1U);
   client.insert_scan(small_scan(), scan_pose(0));
@@ -173,6 +203,7 @@ TEST_F(Serve, RefusesWhatItCannotStartWith) {
                  "certificate");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--listen", "here"}), 2, "HOST:PORT");
   expect_refusal(nbvopt_run({"serve", "--create", "0"}), 3, "positive");
+  expect_refusal(run_process("/bin/sh", under_limit("-n 24", {})), 2, "open files");
   expect_refusal(nbvopt_run({"serve", "--create", "1e-4"}), 3, "min_resolution_m");
   expect_refusal(nbvopt_run({"serve", "none.ot"}), 3, "none.ot");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--data-dir", "/none"}), 3, "data folder");

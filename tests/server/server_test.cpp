@@ -12,6 +12,7 @@
 #include "nbvopt/solver/registry.hpp"
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt {
 namespace {
@@ -211,9 +212,8 @@ TEST_F(ServerTest, KeepsItsSocketToItself) {
   EXPECT_EQ(client.status().map_version, 1U);
 }
 
-TEST_F(ServerTest, TellsItsHealth) {
-  const auto channel =
-      grpc::CreateChannel(running.server.address(), grpc::InsecureChannelCredentials());
+/// What the health service says of the planner.
+std::string health(const std::shared_ptr<grpc::Channel>& channel) {
   // grpc.health.v1.HealthCheckRequest{service: "nbvopt.v1.Planner"} as bytes.
   grpc::GenericStub generic(channel);
   const std::string service = "nbvopt.v1.Planner";
@@ -224,8 +224,40 @@ TEST_F(ServerTest, TellsItsHealth) {
   std::promise<grpc::Status> done;
   generic.UnaryCall(&context, "/grpc.health.v1.Health/Check", {}, &request, &reply,
                     [&](grpc::Status status) { done.set_value(std::move(status)); });
-  ASSERT_TRUE(done.get_future().get().ok());
-  EXPECT_EQ(text_of(reply), "\x08\x01");  // SERVING
+  EXPECT_TRUE(done.get_future().get().ok());
+  return text_of(reply);
+}
+
+constexpr const char* kServing = "\x08\x01";
+constexpr const char* kNotServing = "\x08\x02";
+
+/// A channel with a connection of its own.
+std::shared_ptr<grpc::Channel> own_channel(const std::string& address) {
+  grpc::ChannelArguments own_connection;
+  own_connection.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), own_connection);
+}
+
+TEST_F(ServerTest, TellsItsHealth) {
+  EXPECT_EQ(health(own_channel(running.server.address())), kServing);
+}
+
+TEST(Server, TellsThatItHasNoRoomForClients) {
+  test::RunningServer running({.max_connections = 2});
+  const auto first = own_channel(running.server.address());
+  EXPECT_EQ(health(first), kServing);
+  auto second = own_channel(running.server.address());
+  EXPECT_EQ(health(second), kServing);
+  EXPECT_TRUE(test::wait_until([&] { return health(first) == kNotServing; }));
+  // The client has its own, third connection.
+  EXPECT_THAT(test::message_of<ServerError>([&] { running.client.status(); }),
+              HasSubstr("no server answers there"));
+  second.reset();
+  EXPECT_TRUE(test::wait_until([&] { return health(first) == kServing; }));
+  PlannerClient late(running.server.address());
+  const ServerStatus status = late.status();
+  EXPECT_EQ(status.connections, 2U);
+  EXPECT_GE(status.connections_refused, 1U);
 }
 
 TEST_F(ServerTest, TellsItsServicesByReflection) {

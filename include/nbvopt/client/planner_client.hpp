@@ -90,8 +90,11 @@ struct ServerStatus {
   std::uint64_t run_id = 0;    ///< as in ScanReceipt
   std::string snapshot_error;  ///< empty: the last snapshot was written
   double resolution_m = 0.0;
-  std::uint64_t scans = 0;  ///< since the server started
-  MapCounts counts;         ///< where asked for
+  std::uint64_t scans = 0;                ///< since the server started
+  std::uint64_t connections = 0;          ///< of clients, now
+  std::uint64_t connections_refused = 0;  ///< beyond the server's max_connections
+  std::uint64_t connections_silent = 0;   ///< that were closed since they said nothing
+  MapCounts counts;                       ///< where asked for
   PaperCounts paper_counts;
 };
 
