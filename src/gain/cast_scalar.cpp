@@ -1,5 +1,8 @@
 // The caster one ray at a time, in double precision: the plain statement of what the vectorised
 // one does, and its fallback.
+#include <algorithm>
+#include <limits>
+
 #include "gain/scalar_ray.hpp"
 
 namespace nbvopt::detail {
@@ -43,11 +46,15 @@ void walk_ray(const RayWalk& walk, std::size_t i, RayHits& hits) {
 RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
   const Eigen::Matrix3d R = rays.T_map_rays.linear();
   RayBounds bounds;
+  bounds.shortest_range_min_m = bounds.shortest_range_max_m =
+      std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector3d d = R * Eigen::Vector3d(rays.x[i], rays.y[i], rays.z[i]);
     hits.direction_x[i] = d.x();
     hits.direction_y[i] = d.y();
     hits.direction_z[i] = d.z();
+    bounds.shortest_range_min_m = std::min(bounds.shortest_range_min_m, rays.range_min_m[i]);
+    bounds.shortest_range_max_m = std::min(bounds.shortest_range_max_m, rays.range_max_m[i]);
     bounds.far_min = bounds.far_min.cwiseMin(d * rays.range_max_m[i]);
     bounds.far_max = bounds.far_max.cwiseMax(d * rays.range_max_m[i]);
     bounds.near_min = bounds.near_min.cwiseMin(d * rays.range_min_m[i]);

@@ -23,50 +23,53 @@ CasterKernel kernel() { return scalar_kernel(); }
 /// A batch of rays on their way to what they hit.
 class Batch : public HitLanes {
  public:
+  HWY_INLINE explicit Batch(const RayWalk& walk) : HitLanes(walk) {}
+
   /// Starts at range_min, or farther where all before is known to be free.
-  HWY_INLINE Batch(const RayWalk& walk, const RayHits& hits, std::size_t first, float free_up_to)
-      : HitLanes(walk, hits, first) {
-    if (walk.walk_near) walk_near();
-    start_at(hn::Max(near_, hn::Set(df, free_up_to)));
+  HWY_INLINE void start(const RayHits& hits, std::size_t first, FreeWay free) {
+    set_up(hits, first);
+    code_ = hn::Zero(di);
+    if (walk_->walk_near) walk_near(free.from_origin);
+    start_at(hn::Max(near_, hn::Set(df, free.from_near)));
   }
 
   /// Takes every active ray behind the cube that its code speaks for.
   HWY_INLINE void step() {
     const VecI code = gather_codes();
-    const MaskF stopped = hn::RebindMask(df, hn::Gt(code, hn::Set(di, kUnknownCode - 1)));
-    const VecF radius = leap_radius_of(code);
-    const MaskF hit = hn::And(active_, stopped);
-    hit_ = hn::Or(hit_, hit);
-    occupied_ = hn::Or(occupied_,
-                       hn::And(hit, hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)))));
-    active_ = leap_where(hn::AndNot(stopped, active_), radius, far_, stopped);
+    code_ = hn::IfThenElse(hn::RebindMask(di, active_), code, code_);
+    const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
+    const CubeExit exit = exit_of_cube(leap_radius_of(code));
+    active_ = hn::And(hn::And(active_, is_free), hn::Lt(exit.distance, far_));
+    leap(active_, exit, entered_axis_);
+  }
+
+  HWY_INLINE void store_all(RayHits& hits) {
+    hit_ = hn::RebindMask(df, hn::Gt(code_, hn::Set(di, kUnknownCode - 1)));
+    occupied_ = hn::RebindMask(df, hn::Eq(code_, hn::Set(di, kOccupiedCode)));
+    store(hits);
   }
 
  private:
   /// Marks the rays that an occupied voxel, left before range_min, blocks.
-  HWY_INLINE void walk_near() {
-    start_at(hn::Zero(df));
+  HWY_INLINE void walk_near(float free_from_origin) {
+    const VecF begin = hn::Set(df, free_from_origin);
+    active_ = hn::Lt(begin, near_);
+    if (is_active()) place_at(begin);
     while (is_active()) {
       const VecI code = gather_codes();
       const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
       // Unknown voxels there are passed one by one.
       const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
-      const VecF radius = hn::IfThenElseZero(is_free, leap_radius_of(code));
-      const MaskF before_near = leap_where(active_, radius, near_, occupied);
+      const CubeExit exit = exit_of_cube(hn::IfThenElseZero(is_free, leap_radius_of(code)));
+      const MaskF before_near = hn::And(active_, hn::Lt(exit.distance, near_));
       blocked_ = hn::Or(blocked_, hn::And(before_near, occupied));
       active_ = hn::AndNot(occupied, before_near);
+      leap(active_, exit, entered_axis_);
     }
     active_ = hn::Not(blocked_);
   }
 
-  /// Of the `candidates`, those that leave their cube before `end` are returned, and, but for the
-  /// `frozen`, leap behind its surface.
-  HWY_INLINE MaskF leap_where(MaskF candidates, VecF radius, VecF end, MaskF frozen) {
-    const CubeExit exit = exit_of_cube(radius);
-    const MaskF before_end = hn::And(candidates, hn::Lt(exit.distance, end));
-    leap(hn::AndNot(frozen, before_end), exit, entered_axis_);
-    return before_end;
-  }
+  VecI code_;  ///< of the last voxel
 };
 
 void walk_rays(const RayWalk& walk, RayHits& hits) {
@@ -74,10 +77,8 @@ void walk_rays(const RayWalk& walk, RayHits& hits) {
     scalar_kernel().walk(walk, hits);
     return;
   }
-  const auto make_batch = [&](std::size_t first, float free_up_to)
-                              HWY_ATTR { return Batch(walk, hits, first, free_up_to); };
-  const auto store = [&](const Batch& batch) HWY_ATTR { batch.store(hits); };
-  walk_batches(walk, hits, {.from_origin = false, .margin = 0.0F}, make_batch, store);
+  const auto store = [&](Batch& batch) HWY_ATTR { batch.store_all(hits); };
+  walk_batches(walk, hits, {.from_origin = walk.walk_near, .margin = 0.0F}, Batch(walk), store);
 }
 
 RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
@@ -88,31 +89,48 @@ RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
   const Eigen::Matrix3d R = rays.T_map_rays.linear();
   const std::array<double*, 3> direction{hits.direction_x.data(), hits.direction_y.data(),
                                          hits.direction_z.data()};
+  struct Along {
+    VecD r0, r1, r2;
+    VecD far_min, far_max, near_min, near_max;
+  };
+  std::array<Along, 3> along;
+  for (int a = 0; a < 3; ++a) {
+    const VecD zero = hn::Zero(dd);
+    along[a] = {
+        hn::Set(dd, R(a, 0)), hn::Set(dd, R(a, 1)), hn::Set(dd, R(a, 2)), zero, zero, zero, zero};
+  }
+  VecD shortest_near = hn::LoadU(dd, rays.range_min_m.data());
+  VecD shortest_far = hn::LoadU(dd, rays.range_max_m.data());
+  for (std::size_t next = 0; next < n; next += lanes) {
+    const std::size_t i = std::min(next, n - lanes);
+    const VecD x = hn::LoadU(dd, &rays.x[i]);
+    const VecD y = hn::LoadU(dd, &rays.y[i]);
+    const VecD z = hn::LoadU(dd, &rays.z[i]);
+    const VecD range_min = hn::LoadU(dd, &rays.range_min_m[i]);
+    const VecD range_max = hn::LoadU(dd, &rays.range_max_m[i]);
+    shortest_near = hn::Min(shortest_near, range_min);
+    shortest_far = hn::Min(shortest_far, range_max);
+    for (int a = 0; a < 3; ++a) {
+      Along& by = along[a];
+      const VecD d = hn::MulAdd(by.r0, x, hn::MulAdd(by.r1, y, hn::Mul(by.r2, z)));
+      hn::StoreU(d, dd, direction[a] + i);
+      const VecD far = hn::Mul(d, range_max);
+      const VecD near = hn::Mul(d, range_min);
+      by.far_min = hn::Min(by.far_min, far);
+      by.far_max = hn::Max(by.far_max, far);
+      by.near_min = hn::Min(by.near_min, near);
+      by.near_max = hn::Max(by.near_max, near);
+    }
+  }
   RayBounds bounds;
   for (int a = 0; a < 3; ++a) {
-    const VecD r0 = hn::Set(dd, R(a, 0));
-    const VecD r1 = hn::Set(dd, R(a, 1));
-    const VecD r2 = hn::Set(dd, R(a, 2));
-    VecD far_min = hn::Zero(dd), far_max = hn::Zero(dd);
-    VecD near_min = hn::Zero(dd), near_max = hn::Zero(dd);
-    for (std::size_t next = 0; next < n; next += lanes) {
-      const std::size_t i = std::min(next, n - lanes);
-      const VecD d = hn::MulAdd(
-          r0, hn::LoadU(dd, &rays.x[i]),
-          hn::MulAdd(r1, hn::LoadU(dd, &rays.y[i]), hn::Mul(r2, hn::LoadU(dd, &rays.z[i]))));
-      hn::StoreU(d, dd, direction[a] + i);
-      const VecD far = hn::Mul(d, hn::LoadU(dd, &rays.range_max_m[i]));
-      const VecD near = hn::Mul(d, hn::LoadU(dd, &rays.range_min_m[i]));
-      far_min = hn::Min(far_min, far);
-      far_max = hn::Max(far_max, far);
-      near_min = hn::Min(near_min, near);
-      near_max = hn::Max(near_max, near);
-    }
-    bounds.far_min[a] = hn::GetLane(hn::MinOfLanes(dd, far_min));
-    bounds.far_max[a] = hn::GetLane(hn::MaxOfLanes(dd, far_max));
-    bounds.near_min[a] = hn::GetLane(hn::MinOfLanes(dd, near_min));
-    bounds.near_max[a] = hn::GetLane(hn::MaxOfLanes(dd, near_max));
+    bounds.far_min[a] = hn::GetLane(hn::MinOfLanes(dd, along[a].far_min));
+    bounds.far_max[a] = hn::GetLane(hn::MaxOfLanes(dd, along[a].far_max));
+    bounds.near_min[a] = hn::GetLane(hn::MinOfLanes(dd, along[a].near_min));
+    bounds.near_max[a] = hn::GetLane(hn::MaxOfLanes(dd, along[a].near_max));
   }
+  bounds.shortest_range_min_m = hn::GetLane(hn::MinOfLanes(dd, shortest_near));
+  bounds.shortest_range_max_m = hn::GetLane(hn::MinOfLanes(dd, shortest_far));
   return bounds;
 }
 

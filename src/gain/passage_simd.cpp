@@ -52,11 +52,13 @@ struct LatticeModel {
 /// A batch of rays that pass through the unknown.
 class PassageBatch : public HitLanes {
  public:
-  HWY_INLINE PassageBatch(const RayWalk& walk, const LatticeModel& model, const RayHits& hits,
-                          std::size_t first, float free_up_to)
-      : HitLanes(walk, hits, first), model_(model) {
+  HWY_INLINE PassageBatch(const RayWalk& walk, const LatticeModel& model)
+      : HitLanes(walk), model_(&model) {}
+
+  HWY_INLINE void start(const RayHits& hits, std::size_t first, FreeWay free) {
+    set_up(hits, first);
     climb_ = load_demoted(&hits.direction_z[first]);
-    begin_ = hn::Set(df, free_up_to);
+    begin_ = hn::Set(df, free.from_origin);
     start_at(begin_);
     transmittance_ = hn::Set(df, 1.0F);
     probability_ = u_distance_ = moment1_ = moment2_ = moment3_ = depth_ = hn::Zero(df);
@@ -76,7 +78,7 @@ class PassageBatch : public HitLanes {
     const MaskF is_near = hn::Lt(exit.distance, near_);
     const MaskF arrives = hn::AndNot(is_near, occupied);
     occupied_ = hn::Or(occupied_, arrives);
-    if (walk_.rays->near_blocking) {
+    if (walk_->rays->near_blocking) {
       blocked_ = hn::Or(blocked_, hn::And(is_near, occupied));
       active_ = hn::AndNot(occupied, active_);
     } else {
@@ -104,7 +106,7 @@ class PassageBatch : public HitLanes {
     const auto put = [&](VecF v, std::vector<float>& to, float unit) HWY_ATTR {
       hn::StoreU(hn::IfThenZeroElse(blocked_, hn::Mul(v, hn::Set(df, unit))), df, &to[first_]);
     };
-    const float m = model_.voxel_m;
+    const float m = model_->voxel_m;
     put(transmittance_, out.end_probability, 1.0F);
     put(probability_, out.probability, 1.0F);
     put(u_distance_, out.distance_uncertainty, 1.0F);
@@ -128,16 +130,16 @@ class PassageBatch : public HitLanes {
     };
     // unknown_context() and frontier_context().
     const VecI in_unknown =
-        hn::Add(hn::Add(if_then(hn::Ge(height, hn::Set(df, model_.floor_band)), 4),
-                        if_then(hn::Ge(height, hn::Set(df, model_.ceiling_band)), 4)),
-                hn::Add(if_then(hn::Ge(hn::Add(depth_, half), hn::Set(df, model_.deep)), 2),
+        hn::Add(hn::Add(if_then(hn::Ge(height, hn::Set(df, model_->floor_band)), 4),
+                        if_then(hn::Ge(height, hn::Set(df, model_->ceiling_band)), 4)),
+                hn::Add(if_then(hn::Ge(hn::Add(depth_, half), hn::Set(df, model_->deep)), 2),
                         if_then(edge, 1)));
     const MaskF surface_too = hn::RebindMask(
         df, hn::Ne(hn::And(code, hn::Set(di, kFrontierBesideSurfaceBit)), hn::Zero(di)));
     const VecI in_free = hn::Add(hn::Set(di, static_cast<int>(HazardTable::kUnknownContexts)),
                                  if_then(surface_too, 1));
     const VecI context = hn::IfThenElse(hn::RebindMask(di, unknown), in_unknown, in_free);
-    const VecF hazard = hn::GatherIndex(df, model_.hazard.data(), context);
+    const VecF hazard = hn::GatherIndex(df, model_->hazard.data(), context);
     depth_ = hn::Add(depth_, hn::IfThenElseZero(unknown, whole));
 
     const VecF end = hn::Min(exit, far_);
@@ -155,7 +157,7 @@ class PassageBatch : public HitLanes {
     const auto [hit, share] = piece_hits(x);
     const VecF s = hn::MulAdd(share, length, split);
     const VecF p = hn::IfThenElseZero(in_piece, hn::Mul(transmittance_, hit));
-    if (model_.with_uncertainty) add_uncertainty(p, s);
+    if (model_->with_uncertainty) add_uncertainty(p, s);
     probability_ = hn::Add(probability_, p);
     const VecF ps = hn::Mul(p, s);
     const VecF pss = hn::Mul(ps, s);
@@ -167,8 +169,8 @@ class PassageBatch : public HitLanes {
 
   HWY_INLINE void add_uncertainty(VecF p, VecF s) {
     const VecF one = hn::Set(df, 1.0F);
-    const VecF d_focal = hn::Abs(hn::Sub(hn::Mul(s, hn::Set(df, model_.voxel_m)),
-                                         hn::Set(df, model_.focal_distance_m)));  // Equation (1)
+    const VecF d_focal = hn::Abs(hn::Sub(hn::Mul(s, hn::Set(df, model_->voxel_m)),
+                                         hn::Set(df, model_->focal_distance_m)));  // Equation (1)
     const VecF u_distance = hn::Sub(
         one, hn::Div(hn::Set(df, 2.0F), hn::Add(one, hn::Exp(df, d_focal))));  // Equation (2)
     u_distance_ = hn::MulAdd(p, u_distance, u_distance_);
@@ -203,7 +205,7 @@ class PassageBatch : public HitLanes {
             hn::IfThenElse(is_small, series_share, share)};
   }
 
-  const LatticeModel& model_;
+  const LatticeModel* model_;
   VecF climb_;  ///< the directions along z
   VecF begin_;  ///< where the ray entered its voxel
   VecF depth_;  ///< of unknown voxels passed
@@ -217,11 +219,9 @@ void walk_passages(const RayWalk& walk, const PassageModel& passage_model, RayPa
     return;
   }
   const LatticeModel model(walk, passage_model);
-  const auto make_batch = [&](std::size_t first, float free_up_to) HWY_ATTR {
-    return PassageBatch(walk, model, passages.end, first, free_up_to);
-  };
   const auto store = [&](PassageBatch& batch) HWY_ATTR { batch.store_all(passages); };
-  walk_batches(walk, passages.end, {.from_origin = true, .margin = kEdgeMargin}, make_batch, store);
+  walk_batches(walk, passages.end, {.from_origin = true, .margin = kEdgeMargin},
+               PassageBatch(walk, model), store);
 }
 
 RayBounds passage_bounds(const RayBundle& rays, RayHits& hits) {

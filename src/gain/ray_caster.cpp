@@ -111,6 +111,8 @@ RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_
   const Eigen::Vector3d origin_floor = origin_lattice.array().floor();
   walk.origin_key = origin_floor.cast<int>();
   walk.origin_in_voxel = origin_lattice - origin_floor;
+  walk.shortest_range_min_m = bounds.shortest_range_min_m;
+  walk.shortest_range_max_m = bounds.shortest_range_max_m;
   walk.look_up_uncertainty = grid.carries_uncertainty();
   walk.occupied_uncertainty =
       grid.carries_uncertainty() ? double{kUnknownUncertainty} : occupied_uncertainty;

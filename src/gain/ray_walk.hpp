@@ -27,12 +27,15 @@ struct LocalBricks {
   }
 };
 
-/// The boxes that hold all rays, relative to the origin, metres, map axes.
+/// The boxes that hold all rays, relative to the origin, metres, map axes, and their shortest
+/// ranges.
 struct RayBounds {
   Eigen::Vector3d far_min = Eigen::Vector3d::Zero();  ///< from the origin to range_max
   Eigen::Vector3d far_max = Eigen::Vector3d::Zero();
   Eigen::Vector3d near_min = Eigen::Vector3d::Zero();  ///< from the origin to range_min
   Eigen::Vector3d near_max = Eigen::Vector3d::Zero();
+  double shortest_range_min_m = 0.0;
+  double shortest_range_max_m = 0.0;
 };
 
 /// A bundle ready to be walked.
@@ -43,6 +46,8 @@ struct RayWalk {
   Eigen::Vector3d origin_in_voxel = Eigen::Vector3d::Zero();
   /// The key of the origin's voxel.
   Eigen::Vector3i origin_key = Eigen::Vector3i::Zero();
+  double shortest_range_min_m = 0.0;
+  double shortest_range_max_m = 0.0;
   LocalBricks bricks;
   bool walk_near = false;  ///< something occupied is near: walk from the origin to range_min too
   bool look_up_uncertainty = false;   ///< some bricks store u
