@@ -141,6 +141,8 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
   add_number(serve, "--max-compute-ms", limits.max_compute_ms, "MS",
              "of a plan or a call of Evaluate");
   add_whole_number(serve, "--max-streams", limits.max_streams, 1, kMost, "that are open");
+  add_whole_number(serve, "--max-buffered-mib", limits.max_buffered_mib, 1, kMost,
+                   "of all messages that are coming in; calls beyond are refused");
   add_whole_number(serve, "--max-connections", limits.max_connections, 1, kMost,
                    "of clients; fewer where the system allows few open files");
   add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,

@@ -17,6 +17,8 @@ struct ServerLimits {
   double max_compute_ms = 10'000.0;  ///< of a plan or a call of Evaluate
   std::int64_t max_waiting = 64;     ///< calls that wait for a thread, of each kind of work
   std::int64_t max_streams = 256;    ///< streams that are open
+  /// Of messages on their way in; must hold the largest.
+  std::int64_t max_buffered_mib = 256;
   /// Of clients; fewer where the system allows the process few descriptors.
   std::int64_t max_connections = 256;
 };

@@ -133,6 +133,12 @@ struct Server::Parts {
     // gRPC refuses without naming the limit; the handler names it for what goes a little beyond.
     const std::int64_t hard_limit_mib = options.limits.max_message_mib + 16;
     builder.SetMaxReceiveMessageSize(static_cast<int>(hard_limit_mib << 20));
+    // Where what comes in takes more, gRPC ends streams until it does not.
+    grpc::ResourceQuota quota("server");
+    quota.Resize(static_cast<std::size_t>(options.limits.max_buffered_mib) << 20);
+    builder.SetResourceQuota(quota);
+    // A client's further calls wait on its own side.
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 32);
     // Who connects and does not speak HTTP/2 to the end of its greeting.
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 10'000);
     // Clients that are gone without a word.

@@ -32,6 +32,7 @@ from nbvopt_client import (
     plan_request,
     point_scan,
 )
+from served import Server
 from simulated_robot import R_BODY_SENSOR, SimulatedRobot
 
 PROGRAMS = pathlib.Path(simulated_robot.__file__).resolve().parent
@@ -46,34 +47,6 @@ def ahead(x_m: float, y_m: float, z_m: float) -> np.ndarray:
     T[:3, :3] = R_BODY_SENSOR
     T[:3, 3] = x_m, y_m, z_m
     return T
-
-
-class Server:
-    """A server in a folder of its own, which holds its data folder too."""
-
-    def __init__(self, *arguments: str, listen: str = ""):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="nbvopt-"))
-        self.data = self.folder / "data"
-        self.data.mkdir()
-        command = [os.environ["NBVOPT_CLI"], "serve", "--create", "0.05"]
-        command += ["--listen", listen or f"unix:{self.folder}/sock"]
-        command += [argument.replace("DATA", str(self.data)) for argument in arguments]
-        with (self.folder / "log").open("w") as log:
-            self._process = subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=log, text=True
-            )
-        ready = self._process.stdout.readline()
-        if not ready.startswith("listening on "):
-            said = (self.folder / "log").read_text()
-            self.stop()
-            raise RuntimeError(f"the server did not start: {said}")
-        self.address = ready.removeprefix("listening on ").strip()
-
-    def stop(self) -> None:
-        self._process.terminate()
-        self._process.wait()
-        self._process.stdout.close()
-        shutil.rmtree(self.folder)
 
 
 def coloured_points(ply: bytes) -> list:

@@ -19,7 +19,8 @@ import numpy as np
 
 from nbvopt_client import PlannerClient, pb
 from simulated_robot import HEIGHT_PX, WIDTH_PX, SimulatedRobot
-from test_nbvopt_client import PROGRAMS, Server
+from served import Server
+from test_nbvopt_client import PROGRAMS
 
 MISSING = ""
 try:

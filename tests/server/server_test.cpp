@@ -247,7 +247,7 @@ TEST(Server, TellsThatItHasNoRoomForClients) {
   const auto first = own_channel(running.server.address());
   EXPECT_EQ(health(first), kServing);
   auto second = own_channel(running.server.address());
-  EXPECT_EQ(health(second), kServing);
+  health(second);  // connects; it may see what it brings about
   EXPECT_TRUE(test::wait_until([&] { return health(first) == kNotServing; }));
   // The client has its own, third connection.
   EXPECT_THAT(test::message_of<ServerError>([&] { running.client.status(); }),
