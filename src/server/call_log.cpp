@@ -6,11 +6,14 @@ namespace {
 constexpr std::array kMethodNames{"Plan",    "PlanStream", "Evaluate", "InsertScan", "InsertScans",
                                   "LoadMap", "SaveMap",    "GetMap",   "ClearMap",   "GetStatus"};
 
+static_assert(kMethodNames.size() == kMethodCount);
+
 }  // namespace
 
+const char* name_of(Method method) { return kMethodNames.at(static_cast<std::size_t>(method)); }
+
 void CallLog::write(v1::GetStatusReply& reply) const {
-  static_assert(kMethodNames.size() == kMethods);
-  for (std::size_t i = 0; i < kMethods; ++i) {
+  for (std::size_t i = 0; i < kMethodCount; ++i) {
     const LatencyHistogram::Counts counts = entries_[i].latency.counts();
     v1::Latency& latency = *reply.add_latencies();
     latency.set_method(kMethodNames[i]);

@@ -23,6 +23,11 @@ enum class Method {
   get_status,
 };
 
+constexpr std::size_t kMethodCount = 10;
+
+/// As in planner.proto.
+const char* name_of(Method method);
+
 /// Safe to share between threads.
 class CallLog {
  public:
@@ -39,11 +44,9 @@ class CallLog {
     std::atomic<std::uint64_t> failed{0};
     std::atomic<std::uint64_t> shed{0};
   };
-  static constexpr std::size_t kMethods = 10;
-
   Entry& of(Method method) { return entries_[static_cast<std::size_t>(method)]; }
 
-  std::array<Entry, kMethods> entries_;
+  std::array<Entry, kMethodCount> entries_;
 };
 
 }  // namespace nbvopt

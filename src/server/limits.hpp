@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 namespace nbvopt {
@@ -17,8 +18,9 @@ struct ServerLimits {
   double max_compute_ms = 10'000.0;  ///< of a plan or a call of Evaluate
   std::int64_t max_waiting = 64;     ///< calls that wait for a thread, of each kind of work
   std::int64_t max_streams = 256;    ///< streams that are open
-  /// Of messages on their way in; must hold the largest.
+  /// Of all messages that are coming in, and again of all that wait or are at work.
   std::int64_t max_buffered_mib = 256;
+  double max_receive_s = 30.0;  ///< until a call's message must be there
   /// Of clients; fewer where the system allows the process few descriptors.
   std::int64_t max_connections = 256;
 };
@@ -48,6 +50,39 @@ class OpenStreams {
  private:
   const std::int64_t most_;
   std::atomic<std::int64_t> open_{0};
+};
+
+/// How much memory messages take that wait or are at work.
+class MessageMemory {
+ public:
+  explicit MessageMemory(std::int64_t most_mib) : most_(static_cast<std::size_t>(most_mib) << 20) {}
+
+  /// A message's part of it, given back when it goes.
+  class Share {
+   public:
+    Share(MessageMemory& memory, std::size_t bytes)
+        : memory_(memory), bytes_(bytes), is_granted_(memory.take(bytes)) {}
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+    ~Share() { memory_.taken_ -= bytes_; }
+
+    /// False: there was too little left. A message alone always finds enough.
+    bool is_granted() const { return is_granted_; }
+
+   private:
+    MessageMemory& memory_;
+    std::size_t bytes_;
+    bool is_granted_;
+  };
+
+ private:
+  bool take(std::size_t bytes) {
+    const std::size_t now = taken_ += bytes;
+    return now <= most_ || now == bytes;
+  }
+
+  const std::size_t most_;
+  std::atomic<std::size_t> taken_{0};
 };
 
 }  // namespace nbvopt

@@ -1,96 +1,124 @@
 #include "server/planner_service.hpp"
 
+#include <utility>
+
+#include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/map_stream.hpp"
 #include "server/plan_stream.hpp"
-#include "server/queued_call.hpp"
 #include "server/scan_stream.hpp"
+#include "server/unary_call.hpp"
 
 namespace nbvopt {
+namespace {
 
 using grpc::CallbackServerContext;
-using grpc::ServerUnaryReactor;
+using grpc::internal::RpcMethod;
+
+/// The queue of all calls of a method.
+auto always(WorkQueue& queue) {
+  return [&queue](const auto&) -> WorkQueue& { return queue; };
+}
+
+std::chrono::milliseconds milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1e3));
+}
+
+}  // namespace
 
 PlannerService::PlannerService(RequestHandler& handler, const ConnectionLog& connections,
                                std::size_t planning_threads)
     : handler_(handler),
       connections_(connections),
       streams_(handler.limits().max_streams),
+      watch_(milliseconds(handler.limits().max_receive_s)),
+      memory_(handler.limits().max_buffered_mib),
       planning_(planning_threads, static_cast<std::size_t>(handler.limits().max_waiting)),
       mapping_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
       storage_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
-      status_(1, static_cast<std::size_t>(handler.limits().max_waiting)) {}
+      status_(1, static_cast<std::size_t>(handler.limits().max_waiting)) {
+  add_planning();
+  add_mapping();
+  add_storage();
+  add_status();
+}
 
-ServerUnaryReactor* PlannerService::Plan(CallbackServerContext* context,
-                                         const v1::PlanRequest* request, v1::PlanReply* reply) {
-  return start_call(*context, log_, Method::plan, planning_, [=, this](const CallLimits& limits) {
-    *reply = handler_.plan(*request, limits.received(), limits.stop());
+void PlannerService::add(Method method, RpcMethod::RpcType type,
+                         grpc::internal::MethodHandler* handler) {
+  std::string& path = paths_.at(static_cast<std::size_t>(method));
+  path = std::string("/") + v1::Planner::service_full_name() + "/" + name_of(method);
+  AddMethod(new grpc::internal::RpcServiceMethod(path.c_str(), type, nullptr));
+  MarkMethodCallback(methods_++, handler);
+}
+
+template <typename Request, typename Reply, typename Start>
+void PlannerService::add_streams(Method method, Start start) {
+  add(method, RpcMethod::BIDI_STREAMING,
+      new grpc::internal::CallbackBidiHandler<Request, Reply>(std::move(start)));
+}
+
+template <typename Request, typename Reply, typename QueueOf, typename Run>
+void PlannerService::add_unary(Method method, QueueOf queue_of, Run run) {
+  add_streams<Request, Reply>(method, [=, this](CallbackServerContext* context) {
+    return new UnaryCall<Request, Reply, QueueOf, Run>(
+        *context, UnaryCallParts{log_, watch_, memory_}, method, queue_of, run);
   });
 }
 
-grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply>* PlannerService::PlanStream(
-    CallbackServerContext* context) {
-  return new PlanStreamCall(*context, handler_, log_, planning_, streams_);
+void PlannerService::add_planning() {
+  add_unary<v1::PlanRequest, v1::PlanReply>(
+      Method::plan, always(planning_), [this](const auto& request, const CallLimits& limits) {
+        return handler_.plan(request, limits.received(), limits.stop());
+      });
+  add_streams<v1::PlanRequest, v1::PlanReply>(
+      Method::plan_stream, [this](CallbackServerContext* context) {
+        return new PlanStreamCall(*context, handler_, log_, planning_, streams_);
+      });
+  add_unary<v1::EvaluateRequest, v1::EvaluateReply>(
+      Method::evaluate, always(planning_), [this](const auto& request, const CallLimits& limits) {
+        return handler_.evaluate(request, limits.received(), limits.stop());
+      });
 }
 
-ServerUnaryReactor* PlannerService::Evaluate(CallbackServerContext* context,
-                                             const v1::EvaluateRequest* request,
-                                             v1::EvaluateReply* reply) {
-  return start_call(*context, log_, Method::evaluate, planning_,
-                    [=, this](const CallLimits& limits) {
-                      *reply = handler_.evaluate(*request, limits.received(), limits.stop());
-                    });
+void PlannerService::add_mapping() {
+  add_unary<v1::InsertScanRequest, v1::InsertScanReply>(
+      Method::insert_scan, always(mapping_),
+      [this](const auto& request, const CallLimits&) { return handler_.insert_scan(request); });
+  add_streams<v1::InsertScanRequest, v1::InsertScanReply>(
+      Method::insert_scans, [this](CallbackServerContext*) {
+        return new ScanStreamCall(handler_, log_, mapping_, streams_, memory_);
+      });
+  add_unary<v1::ClearMapRequest, v1::ClearMapReply>(
+      Method::clear_map, always(mapping_),
+      [this](const auto& request, const CallLimits&) { return handler_.clear_map(request); });
 }
 
-ServerUnaryReactor* PlannerService::InsertScan(CallbackServerContext* context,
-                                               const v1::InsertScanRequest* request,
-                                               v1::InsertScanReply* reply) {
-  return start_call(*context, log_, Method::insert_scan, mapping_,
-                    [=, this](const CallLimits&) { *reply = handler_.insert_scan(*request); });
+void PlannerService::add_storage() {
+  add_unary<v1::LoadMapRequest, v1::LoadMapReply>(
+      Method::load_map, always(storage_),
+      [this](const auto& request, const CallLimits&) { return handler_.load_map(request); });
+  add_unary<v1::SaveMapRequest, v1::SaveMapReply>(
+      Method::save_map, always(storage_),
+      [this](const auto& request, const CallLimits&) { return handler_.save_map(request); });
+  add(Method::get_map, RpcMethod::SERVER_STREAMING,
+      new grpc::internal::CallbackServerStreamingHandler<v1::GetMapRequest, v1::MapChunk>(
+          [this](CallbackServerContext*, const v1::GetMapRequest* request) {
+            return new MapStreamCall(*request, handler_, log_, storage_, streams_);
+          }));
 }
 
-grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply>* PlannerService::InsertScans(
-    CallbackServerContext*) {
-  return new ScanStreamCall(handler_, log_, mapping_, streams_);
-}
-
-ServerUnaryReactor* PlannerService::LoadMap(CallbackServerContext* context,
-                                            const v1::LoadMapRequest* request,
-                                            v1::LoadMapReply* reply) {
-  return start_call(*context, log_, Method::load_map, storage_,
-                    [=, this](const CallLimits&) { *reply = handler_.load_map(*request); });
-}
-
-ServerUnaryReactor* PlannerService::SaveMap(CallbackServerContext* context,
-                                            const v1::SaveMapRequest* request,
-                                            v1::SaveMapReply* reply) {
-  return start_call(*context, log_, Method::save_map, storage_,
-                    [=, this](const CallLimits&) { *reply = handler_.save_map(*request); });
-}
-
-grpc::ServerWriteReactor<v1::MapChunk>* PlannerService::GetMap(CallbackServerContext*,
-                                                               const v1::GetMapRequest* request) {
-  return new MapStreamCall(*request, handler_, log_, storage_, streams_);
-}
-
-ServerUnaryReactor* PlannerService::ClearMap(CallbackServerContext* context,
-                                             const v1::ClearMapRequest* request,
-                                             v1::ClearMapReply* reply) {
-  return start_call(*context, log_, Method::clear_map, mapping_,
-                    [=, this](const CallLimits&) { *reply = handler_.clear_map(*request); });
-}
-
-ServerUnaryReactor* PlannerService::GetStatus(CallbackServerContext* context,
-                                              const v1::GetStatusRequest* request,
-                                              v1::GetStatusReply* reply) {
-  return start_call(*context, log_, Method::get_status, request->with_counts() ? storage_ : status_,
-                    [=, this](const CallLimits&) {
-                      *reply = handler_.status(*request);
-                      const std::chrono::duration<double> uptime =
-                          std::chrono::steady_clock::now() - start_;
-                      reply->set_uptime_s(uptime.count());
-                      log_.write(*reply);
-                      connections_.write(*reply);
-                    });
+void PlannerService::add_status() {
+  const auto queue_of = [this](const v1::GetStatusRequest& request) -> WorkQueue& {
+    return request.with_counts() ? storage_ : status_;
+  };
+  add_unary<v1::GetStatusRequest, v1::GetStatusReply>(
+      Method::get_status, queue_of, [this](const auto& request, const CallLimits&) {
+        v1::GetStatusReply reply = handler_.status(request);
+        const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - start_;
+        reply.set_uptime_s(uptime.count());
+        log_.write(reply);
+        connections_.write(reply);
+        return reply;
+      });
 }
 
 }  // namespace nbvopt

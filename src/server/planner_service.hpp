@@ -7,62 +7,61 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/service_type.h>
 
+#include <array>
 #include <chrono>
+#include <string>
 
-#include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/call_log.hpp"
 #include "server/connection_log.hpp"
 #include "server/limits.hpp"
+#include "server/receive_watch.hpp"
 #include "server/request_handler.hpp"
 #include "server/work_queue.hpp"
 
 namespace nbvopt {
 
-class PlannerService final : public v1::Planner::CallbackService {
+/// Registers its methods itself, as protoc's service class does: that one would have gRPC read the
+/// messages of unary calls (see UnaryCall).
+class PlannerService final : public grpc::Service {
  public:
   /// Plans on `planning_threads`. Handler and log must outlive the service, and the service the
   /// server.
   PlannerService(RequestHandler& handler, const ConnectionLog& connections,
                  std::size_t planning_threads);
 
-  grpc::ServerUnaryReactor* Plan(grpc::CallbackServerContext* context,
-                                 const v1::PlanRequest* request, v1::PlanReply* reply) override;
-  grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply>* PlanStream(
-      grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* Evaluate(grpc::CallbackServerContext* context,
-                                     const v1::EvaluateRequest* request,
-                                     v1::EvaluateReply* reply) override;
-  grpc::ServerUnaryReactor* InsertScan(grpc::CallbackServerContext* context,
-                                       const v1::InsertScanRequest* request,
-                                       v1::InsertScanReply* reply) override;
-  grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply>* InsertScans(
-      grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* LoadMap(grpc::CallbackServerContext* context,
-                                    const v1::LoadMapRequest* request,
-                                    v1::LoadMapReply* reply) override;
-  grpc::ServerUnaryReactor* SaveMap(grpc::CallbackServerContext* context,
-                                    const v1::SaveMapRequest* request,
-                                    v1::SaveMapReply* reply) override;
-  grpc::ServerWriteReactor<v1::MapChunk>* GetMap(grpc::CallbackServerContext* context,
-                                                 const v1::GetMapRequest* request) override;
-  grpc::ServerUnaryReactor* ClearMap(grpc::CallbackServerContext* context,
-                                     const v1::ClearMapRequest* request,
-                                     v1::ClearMapReply* reply) override;
-  grpc::ServerUnaryReactor* GetStatus(grpc::CallbackServerContext* context,
-                                      const v1::GetStatusRequest* request,
-                                      v1::GetStatusReply* reply) override;
-
  private:
+  void add(Method method, grpc::internal::RpcMethod::RpcType type,
+           grpc::internal::MethodHandler* handler);
+
+  /// A method of one message and one reply, which `run(request, limits)` makes on the queue that
+  /// `queue_of(request)` chooses.
+  template <typename Request, typename Reply, typename QueueOf, typename Run>
+  void add_unary(Method method, QueueOf queue_of, Run run);
+
+  /// A method of two streams; `start(context)` makes the reactor.
+  template <typename Request, typename Reply, typename Start>
+  void add_streams(Method method, Start start);
+
+  void add_planning();
+  void add_mapping();
+  void add_storage();
+  void add_status();
+
   RequestHandler& handler_;
   const ConnectionLog& connections_;
   CallLog log_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   OpenStreams streams_;
+  ReceiveWatch watch_;
+  MessageMemory memory_;
   WorkQueue planning_;
   WorkQueue mapping_;
   WorkQueue storage_;
   WorkQueue status_;
+  std::array<std::string, kMethodCount> paths_;  ///< gRPC keeps pointers to them
+  int methods_ = 0;
 };
 
 }  // namespace nbvopt

@@ -1,4 +1,4 @@
-// What all calls share: their place on a queue, their limits, and their entry in the log.
+// What all calls share: their limits, and their entry in the log.
 #pragma once
 
 #include <grpc/support/time.h>
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <utility>
 
 #include "nbvopt/core/stop.hpp"
 #include "server/call_log.hpp"
@@ -33,6 +32,9 @@ class CallLimits {
     constexpr StopRule::Clock::duration kMost = std::chrono::milliseconds(50);
     stop_.deadline = received_ + time - std::clamp(time / 10, kLeast, kMost);
   }
+
+  /// The call's message is here, all of it.
+  void restart() { received_ = StopRule::Clock::now(); }
 
   StopRule::Clock::time_point received() const { return received_; }
   const StopRule& stop() const { return stop_; }
@@ -60,46 +62,6 @@ grpc::Status logged(CallLog& log, Method method, StopRule::Clock::time_point rec
     }
     return status;
   }
-}
-
-/// A unary call: `run(limits)` fills the reply on a thread of the queue, and may throw.
-template <typename Run>
-class QueuedCall final : public grpc::ServerUnaryReactor {
- public:
-  QueuedCall(const grpc::CallbackServerContext& context, CallLog& log, Method method, Run run)
-      : limits_(context), log_(log), method_(method), run_(std::move(run)) {}
-
-  void start(WorkQueue& queue) {
-    if (queue.try_post([this] { work(); })) return;
-    log_.record_shed(method_);
-    Finish(shed_status());
-  }
-
- private:
-  void work() {
-    if (limits_.stop().cancel.is_cancelled()) {
-      log_.record_failure(method_);
-      return Finish({grpc::StatusCode::CANCELLED, "cancelled while it waited"});
-    }
-    Finish(logged(log_, method_, limits_.received(), [this] { run_(limits_); }));
-  }
-
-  void OnCancel() override { limits_.cancel(); }
-  void OnDone() override { delete this; }
-
-  const CallLimits limits_;
-  CallLog& log_;
-  const Method method_;
-  const Run run_;
-};
-
-/// Starts a unary call on a queue.
-template <typename Run>
-grpc::ServerUnaryReactor* start_call(const grpc::CallbackServerContext& context, CallLog& log,
-                                     Method method, WorkQueue& queue, Run run) {
-  auto* call = new QueuedCall<Run>(context, log, method, std::move(run));
-  call->start(queue);
-  return call;
 }
 
 }  // namespace nbvopt

@@ -1,6 +1,8 @@
 // InsertScans: a client's stream of scans, inserted and acknowledged one after the other.
 #pragma once
 
+#include <optional>
+
 #include "nbvopt/v1/planner.pb.h"
 #include "server/limits.hpp"
 #include "server/queued_call.hpp"
@@ -13,8 +15,9 @@ namespace nbvopt {
 class ScanStreamCall final
     : public grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply> {
  public:
-  ScanStreamCall(RequestHandler& handler, CallLog& log, WorkQueue& queue, OpenStreams& streams)
-      : handler_(handler), log_(log), queue_(queue), place_(streams) {
+  ScanStreamCall(RequestHandler& handler, CallLog& log, WorkQueue& queue, OpenStreams& streams,
+                 MessageMemory& memory)
+      : handler_(handler), log_(log), queue_(queue), place_(streams), memory_(memory) {
     if (place_.is_taken()) {
       StartRead(&scan_);
     } else {
@@ -26,7 +29,8 @@ class ScanStreamCall final
   void OnReadDone(bool ok) override {
     if (!ok) return Finish(grpc::Status::OK);  // all are read, or the client is gone
     received_ = StopRule::Clock::now();
-    if (!queue_.try_post([this] { insert(); })) shed();
+    share_.emplace(memory_, scan_.SpaceUsedLong());
+    if (!share_->is_granted() || !queue_.try_post([this] { insert(); })) shed();
   }
 
   void insert() {
@@ -34,6 +38,7 @@ class ScanStreamCall final
                                        [this] { reply_ = handler_.insert_scan(scan_); });
     if (!status.ok()) return Finish(status);
     scan_ = {};  // it may be large, and the next one may be long in coming
+    share_.reset();
     StartWrite(&reply_);
   }
 
@@ -53,6 +58,8 @@ class ScanStreamCall final
   CallLog& log_;
   WorkQueue& queue_;
   const OpenStreams::Place place_;
+  MessageMemory& memory_;
+  std::optional<MessageMemory::Share> share_;  ///< of `scan_`
   v1::InsertScanRequest scan_;
   v1::InsertScanReply reply_;
   StopRule::Clock::time_point received_;

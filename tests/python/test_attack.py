@@ -89,14 +89,16 @@ class MessagesWithoutAnEndTest(unittest.TestCase):
     MOST_MIB = BUFFERED_MIB + 4 * 31 + 64
 
     def setUp(self):
-        self.server = Server("--max-buffered-mib", str(self.BUFFERED_MIB), listen="127.0.0.1:0")
+        self.server = Server(
+            "--max-buffered-mib", str(self.BUFFERED_MIB), "--max-receive", "1", listen="127.0.0.1:0"
+        )
         self.addCleanup(self.server.stop)
         self.before_mib = self.server.memory_mib()
 
     def grown_mib(self) -> float:
         return self.server.memory_mib() - self.before_mib
 
-    def attack(self, connections: int, streams: int, method: str) -> None:
+    def attack(self, connections: int, streams: int, method: str) -> Attack:
         attack = Attack(self.server.address, connections, streams, 31 << 20, method)
         self.addCleanup(attack.close)
         with OtherClient(self.server.address) as other:
@@ -107,9 +109,18 @@ class MessagesWithoutAnEndTest(unittest.TestCase):
         # What is refused for lack of memory may be anybody's, and says that it may be tried again.
         again = {grpc.StatusCode.RESOURCE_EXHAUSTED, grpc.StatusCode.UNAVAILABLE}
         self.assertLessEqual(set(other.refusals), again)
+        return attack
+
+    def failed_scans(self) -> int:
+        with PlannerClient(self.server.address) as planner:
+            (scans,) = (each for each in planner.status().latencies if each.method == "InsertScan")
+            return scans.failed
 
     def test_many_streams(self):
-        self.attack(2, 100, INSERT_SCAN)
+        attack = self.attack(2, 100, INSERT_SCAN)
+        # Those that memory was left for have come to the end of their time.
+        self.assertEqual(attack.refused, 200)
+        self.assertGreater(self.failed_scans(), 0)
 
     def test_many_connections(self):
         self.attack(60, 1, INSERT_SCAN)
