@@ -17,7 +17,8 @@ void add_view_measurements(const std::shared_ptr<const BenchScene>& scene,
 void add_map_measurements(const std::shared_ptr<const BenchScene>& scene,
                           std::vector<Measurement>& measurements);
 
-/// Simulated scans of the office inserted one after the other, from an empty map on.
+/// Simulated scans of the office inserted one after the other, from an empty map on, by us and by
+/// OctoMap.
 void add_insertion_measurements(std::vector<Measurement>& measurements);
 
 }  // namespace nbvopt::bench
