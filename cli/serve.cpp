@@ -137,8 +137,9 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
   add_whole_number(serve, "--max-views", limits.max_views, 1, kMost, "of a call of Evaluate");
   add_number(serve, "--max-map-extent", limits.max_map_extent_m, "M", "the map's longest side");
   add_number(serve, "--min-resolution", limits.min_resolution_m, "M", "the map's smallest voxels");
-  add_whole_number(serve, "--max-map-mib", limits.max_map_mib, 1, kMost,
-                   "of the map that plans read; a brick of 32 x 32 x 32 voxels takes 45 kB");
+  add_whole_number(
+      serve, "--max-map-mib", limits.max_map_mib, 1, kMost,
+      "of the map: its tree and the bricks that plans read; scans that could pass it are refused");
   add_number(serve, "--max-compute-ms", limits.max_compute_ms, "MS",
              "of a plan or a call of Evaluate");
   add_whole_number(serve, "--max-streams", limits.max_streams, 1, kMost, "that are open");

@@ -8,7 +8,7 @@
 #include "map/map_access.hpp"
 #include "map/map_header.hpp"
 #include "map/map_points.hpp"
-#include "map/uncertainty_octree.hpp"
+#include "map/subtree.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
 #include "nbvopt/map/map_file.hpp"
 
@@ -28,35 +28,10 @@ std::string header(const char* magic, const char* tree_type, std::uint64_t nodes
          "\ndata\n";
 }
 
-/// Appends a node as .ot files hold it: its values (append_values), a mask of its children, them.
-template <class AppendValues>
-void append_full_node(const UncertaintyOcTree& tree, const Node& node,
-                      const AppendValues& append_values, std::string& bytes) {
-  append_values(node, bytes);
-  std::uint8_t mask = 0;
-  for (int i = 0; i < 8; ++i) {
-    if (tree.nodeChildExists(&node, i)) mask |= static_cast<std::uint8_t>(1U << i);
-  }
-  append(bytes, mask);
-  for (int i = 0; i < 8; ++i) {
-    if (mask >> i & 1) append_full_node(tree, *tree.getNodeChild(&node, i), append_values, bytes);
-  }
-}
-
-template <class AppendValues>
-std::string full_file(const UncertaintyOcTree& tree, const char* tree_type,
-                      const AppendValues& append_values) {
-  std::string bytes = header(kFullMagic, tree_type, tree.size(), tree.getResolution());
-  if (tree.getRoot() != nullptr) append_full_node(tree, *tree.getRoot(), append_values, bytes);
-  return bytes;
-}
-
 std::string uncertainty_file(const UncertaintyOcTree& tree) {
-  return full_file(tree, "UncertaintyOcTree", [](const Node& node, std::string& bytes) {
-    append(bytes, node.getLogOdds());
-    append(bytes, node.colour());
-    append(bytes, node.uncertainty());
-  });
+  std::string bytes = header(kFullMagic, "UncertaintyOcTree", tree.size(), tree.getResolution());
+  if (tree.getRoot() != nullptr) append_subtree(tree, *tree.getRoot(), bytes);
+  return bytes;
 }
 
 Colour shown_colour(const UncertaintyOcTree& tree, const Node& node) {
@@ -64,10 +39,13 @@ Colour shown_colour(const UncertaintyOcTree& tree, const Node& node) {
 }
 
 std::string colour_file(const UncertaintyOcTree& tree) {
-  return full_file(tree, "ColorOcTree", [&tree](const Node& node, std::string& bytes) {
-    append(bytes, node.getLogOdds());
-    append(bytes, shown_colour(tree, node));
-  });
+  const auto append_values = [&tree](const Node& node, std::string& to) {
+    append(to, node.getLogOdds());
+    append(to, shown_colour(tree, node));
+  };
+  std::string bytes = header(kFullMagic, "ColorOcTree", tree.size(), tree.getResolution());
+  if (tree.getRoot() != nullptr) append_full_node(tree, *tree.getRoot(), append_values, bytes);
+  return bytes;
 }
 
 /// Writes the most likely state of each voxel, pruned: two bits a child.

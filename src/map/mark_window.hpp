@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "map/segment_walk.hpp"
@@ -42,6 +43,9 @@ class MarkWindow {
 
   /// The OR of the marks in a block of 8^level voxels; a tile is a block of level kTileBits.
   std::uint8_t content(int level, std::uint32_t block) const { return content_[level][block]; }
+
+  /// content() of all blocks of a level.
+  std::span<const std::uint8_t> contents(int level) const { return content_[level]; }
 
   const HitVoxel& hit(std::uint32_t number) const { return hits_[hit_of_[number]]; }
 

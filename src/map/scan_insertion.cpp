@@ -5,12 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "map/insertion_size.hpp"
 #include "map/map_access.hpp"
 #include "map/mark_window.hpp"
 #include "map/scan_counting.hpp"
 #include "map/scan_rays.hpp"
 #include "map/scan_windows.hpp"
 #include "map/segment_walk.hpp"
+#include "map/tile_undo.hpp"
 #include "map/tile_update.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/scan.hpp"
@@ -27,22 +29,80 @@ void add_hit(const ScanHit& hit, const Scan& scan, MarkWindow& window) {
   ++voxel.coloured_points;
 }
 
-void insert_window(UncertaintyOcTree& tree, const Scan& scan, const WindowWork& work,
-                   InsertResult& result) {
-  MarkWindow window(work.least, work.tiles);
-  for (const Eigen::Vector3d& end : work.rays.ends) {
-    window.mark_passed(SegmentWalk(work.rays.origin, end));
+/// Writes a scan into a tree, window by window. Where there is one, it is written in one go once
+/// it is marked; where there are several, what they replace is kept, so that an Error between two
+/// tiles leaves nothing behind.
+class WindowWriter {
+ public:
+  WindowWriter(UncertaintyOcTree& tree, const Scan& scan, const InsertLimits& limits,
+               InsertResult& result)
+      : tree_(tree), scan_(scan), limits_(limits), result_(result), undo_(tree) {}
+
+  void write(const std::vector<WindowWork>& windows) {
+    is_undone_ = windows.size() > 1;
+    try {
+      for (const WindowWork& work : windows) write(work);
+    } catch (const Error&) {
+      undo_.restore();
+      throw;
+    }
   }
-  for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan, window);
-  window.summarise();
-  TileUpdate update(tree, window, result);
-  for (std::uint32_t tile = 0; tile < window.tile_count(); ++tile) update.apply(tile);
-}
+
+ private:
+  void write(const WindowWork& work) {
+    MarkWindow window(work.least, work.tiles);
+    mark(work, window);
+    reserve_memory(window);
+    check_cancelled();
+    TileUpdate update(tree_, window, result_);
+    for (std::uint32_t tile = 0; tile < window.tile_count(); ++tile) {
+      if (is_undone_ && window.content(MarkWindow::kTileBits, tile) != kUntouched) {
+        check_cancelled();
+        undo_.keep(window.key(tile << 3 * MarkWindow::kTileBits));
+      }
+      update.apply(tile);
+    }
+  }
+
+  void mark(const WindowWork& work, MarkWindow& window) const {
+    constexpr std::size_t kRaysAtOnce = 4096;  // a millisecond or so
+    const auto& ends = work.rays.ends;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (i % kRaysAtOnce == 0) check_cancelled();
+      window.mark_passed(SegmentWalk(work.rays.origin, ends[i]));
+    }
+    for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan_, window);
+    window.summarise();
+  }
+
+  void check_cancelled() const {
+    if (limits_.cancel.is_cancelled()) {
+      throw CancelledError("the scan was cancelled, the map is as it was before");
+    }
+  }
+
+  void reserve_memory(const MarkWindow& window) {
+    bytes_ += most_bytes_to_insert(window);
+    if (bytes_ <= limits_.max_bytes) return;
+    const auto mib = [](std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1); };
+    throw ScanTooLargeError("scan: inserting it may take " + mib(bytes_) + " MiB or more, " +
+                            mib(limits_.max_bytes) +
+                            " MiB are left: lower sensor.range_max_m or take a coarser map");
+  }
+
+  UncertaintyOcTree& tree_;
+  const Scan& scan_;
+  const InsertLimits& limits_;
+  InsertResult& result_;
+  TileUndo undo_;
+  bool is_undone_ = false;
+  std::uint64_t bytes_ = 0;  ///< that the windows so far may take at most
+};
 
 }  // namespace
 
 InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform& T_map_sensor,
-                         const SensorOptions& sensor) {
+                         const SensorOptions& sensor, const InsertLimits& limits) {
   sensor.validate();
   if (!scan.colours.empty() && scan.colours.size() != scan.points_m.size()) {
     throw UsageError("scan: " + std::to_string(scan.colours.size()) + " colours for " +
@@ -55,9 +115,8 @@ InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform&
   result.rays_cleared = rays.cleared;
   result.points_ignored =
       rays.counts.points_too_near + rays.counts.points_not_finite + rays.counts.points_off_lattice;
-  for (const WindowWork& work : scan_windows(std::move(rays))) {
-    insert_window(detail::MapAccess::tree(map), scan, work, result);
-  }
+  WindowWriter(detail::MapAccess::tree(map), scan, limits, result)
+      .write(scan_windows(std::move(rays)));
   return result;
 }
 

@@ -6,8 +6,6 @@ namespace nbvopt {
 
 namespace {
 
-constexpr int kTileDepth = UncertaintyOcTree::kDepth - MarkWindow::kTileBits;
-
 /// The scan's mean colour of the voxel, averaged with the one that it had, as OctoMap does.
 Colour fused_colour(const Colour& before, const HitVoxel& hit) {
   Colour colour{};

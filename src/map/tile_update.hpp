@@ -9,6 +9,9 @@
 
 namespace nbvopt {
 
+/// Of the octree's nodes that cover a tile each.
+inline constexpr int kTileDepth = UncertaintyOcTree::kDepth - MarkWindow::kTileBits;
+
 /// Updates the voxels of one tile in one pass over the octree's branch, which is restored and
 /// pruned on the way back. Untouched branches are not visited.
 class TileUpdate {

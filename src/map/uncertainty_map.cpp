@@ -155,6 +155,12 @@ std::optional<KeyBox> UncertaintyMap::known_box() const {
 
 std::uint64_t UncertaintyMap::known_bricks() const { return detail::count_known_bricks(*tree_); }
 
+std::uint64_t UncertaintyMap::memory_bytes() const {
+  // A node is 32 bytes of malloc(), the array of its children 80: one for each four to eight nodes.
+  constexpr std::uint64_t kBytesPerNode = 50;
+  return tree_->size() * kBytesPerNode;
+}
+
 bool UncertaintyMap::has_occupied() const {
   return tree_->getRoot() != nullptr && tree_->isNodeOccupied(tree_->getRoot());
 }

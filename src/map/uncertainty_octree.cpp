@@ -49,4 +49,13 @@ UncertaintyOcTreeNode& UncertaintyOcTree::make_voxel(VoxelKey key) {
   return *node;
 }
 
+void UncertaintyOcTree::delete_children(Node& node) {
+  for (unsigned i = 0; i < 8; ++i) {
+    if (!nodeChildExists(&node, i)) continue;
+    delete_children(*getNodeChild(&node, i));
+    deleteNodeChild(&node, i);
+  }
+  node.free_child_array();
+}
+
 }  // namespace nbvopt

@@ -38,6 +38,12 @@ class UncertaintyOcTreeNode : public octomap::OcTreeNode {
   /// those that have one).
   void updateOccupancyChildren();
 
+  /// Gives back the array of children, once all are deleted.
+  void free_child_array() {
+    delete[] children;
+    children = nullptr;
+  }
+
   const Colour& colour() const { return colour_; }
   void set_colour(const Colour& colour) { colour_ = colour; }
   float uncertainty() const { return uncertainty_; }
@@ -64,6 +70,9 @@ class UncertaintyOcTree : public octomap::OccupancyOcTreeBase<UncertaintyOcTreeN
   /// The leaf of one voxel at the finest resolution: made when unknown, split off when pruned.
   /// The inner nodes above are left as they were.
   Node& make_voxel(VoxelKey key);
+
+  /// Makes the node a leaf, whatever is below it.
+  void delete_children(Node& node);
 
   /// Restores and prunes a node whose children are in order.
   void update_inner_node(Node& node) {

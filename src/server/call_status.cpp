@@ -18,6 +18,9 @@ grpc::Status status_of(const std::exception& error) {
   if (dynamic_cast<const LimitError*>(&error) != nullptr) {
     return {grpc::StatusCode::OUT_OF_RANGE, message};
   }
+  if (dynamic_cast<const CancelledError*>(&error) != nullptr) {
+    return {grpc::StatusCode::CANCELLED, message};
+  }
   if (dynamic_cast<const Error*>(&error) != nullptr) {  // InputError, UsageError
     return {grpc::StatusCode::INVALID_ARGUMENT, message};
   }

@@ -1,6 +1,5 @@
 #include "server/map_store.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "core/number.hpp"
@@ -31,9 +30,11 @@ void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
   published_.swap(published);  // the old version, if nobody reads it, goes after the lock
 }
 
-MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_sensor) {
+MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_sensor,
+                                     const CancelToken& cancel) {
   const std::scoped_lock lock(tree_mutex_);
-  check_size(static_cast<double>(grid_->memory_bytes()));
+  const std::uint64_t used_bytes = map_.memory_bytes() + grid_->memory_bytes();
+  check_size(used_bytes);
   Eigen::AlignedBox3d extent_m = extent_m_;
   const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(robot_.sensor.longest_range_m());
   extent_m.extend(T_map_sensor.translation() - reach_m);
@@ -48,7 +49,10 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
     learn_hazards(*grid_, scan, T_map_sensor, robot_.sensor, hazards);
   }
   try {
-    insertion.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor);
+    insertion.result = insert_scan(map_, scan, T_map_sensor, robot_.sensor,
+                                   {.cancel = cancel, .max_bytes = max_bytes() - used_bytes});
+  } catch (const ScanTooLargeError& error) {
+    throw LimitError(error.what() + limit_text());
   } catch (const Error&) {  // refused: the tree is untouched
     throw;
   } catch (...) {
@@ -107,11 +111,17 @@ void MapStore::check_extent(const Eigen::AlignedBox3d& box_m) const {
                    format_number(limits_.max_map_extent_m) + " m (max_map_extent_m)");
 }
 
-void MapStore::check_size(double bytes) const {
-  const double mib = bytes / (1 << 20);
-  if (mib <= static_cast<double>(limits_.max_map_mib)) return;
-  throw LimitError("the map takes " + format_number(std::round(mib)) + " MiB, the limit is " +
-                   std::to_string(limits_.max_map_mib) + " MiB (max_map_mib)");
+void MapStore::check_size(std::uint64_t bytes) const {
+  if (bytes <= max_bytes()) return;
+  throw LimitError("the map takes " + std::to_string((bytes >> 20) + 1) + " MiB" + limit_text());
+}
+
+std::uint64_t MapStore::max_bytes() const {
+  return static_cast<std::uint64_t>(limits_.max_map_mib) << 20;
+}
+
+std::string MapStore::limit_text() const {
+  return ", the limit is " + std::to_string(limits_.max_map_mib) + " MiB (max_map_mib)";
 }
 
 Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const {
@@ -128,8 +138,8 @@ Eigen::AlignedBox3d MapStore::checked_extent_m(const UncertaintyMap& map) const 
     box_m.extend(map.lattice().centre_m(box->max));
   }
   check_extent(box_m);
-  constexpr double kBytesPerBrick = 45e3;
-  check_size(static_cast<double>(map.known_bricks()) * kBytesPerBrick);
+  constexpr std::uint64_t kBytesPerBrick = 45'000;
+  check_size(map.memory_bytes() + map.known_bricks() * kBytesPerBrick);
   return box_m;
 }
 

@@ -48,8 +48,10 @@ class MapStore {
     std::uint64_t version = 0;  ///< the first that holds the scan
   };
   /// Inserts a scan and publishes the map with it. Throws as insert_scan() does, and LimitError
-  /// when the map is full or the scan would stretch it too far; the map is then untouched.
-  Insertion insert(const Scan& scan, const Transform& T_map_sensor);
+  /// when the map is full or the scan would stretch it too far or take too much memory; the map is
+  /// then untouched.
+  Insertion insert(const Scan& scan, const Transform& T_map_sensor,
+                   const CancelToken& cancel = CancelToken());
 
   /// Publishes another map in place of this one and returns its version. Throws LimitError when it
   /// is too large; the map is then as it was.
@@ -70,7 +72,11 @@ class MapStore {
   void check_extent(const Eigen::AlignedBox3d& box_m) const;
   /// The same for a whole map and all limits; returns its box in the map frame.
   Eigen::AlignedBox3d checked_extent_m(const UncertaintyMap& map) const;
-  void check_size(double bytes) const;
+  /// The same for what a map takes.
+  void check_size(std::uint64_t bytes) const;
+  std::uint64_t max_bytes() const;
+  /// Which limit it is that a map or a scan goes beyond.
+  std::string limit_text() const;
   void publish(std::shared_ptr<const VoxelGrid> grid);
   /// Publishes the tree as it is, whatever the grid holds.
   void publish_whole() { publish(VoxelGrid::whole(map_, grid_->version() + 1)); }

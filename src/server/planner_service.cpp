@@ -81,8 +81,9 @@ void PlannerService::add_planning() {
 
 void PlannerService::add_mapping() {
   add_unary<v1::InsertScanRequest, v1::InsertScanReply>(
-      Method::insert_scan, always(mapping_),
-      [this](const auto& request, const CallLimits&) { return handler_.insert_scan(request); });
+      Method::insert_scan, always(mapping_), [this](const auto& request, const CallLimits& limits) {
+        return handler_.insert_scan(request, limits.stop().cancel);
+      });
   add_streams<v1::InsertScanRequest, v1::InsertScanReply>(
       Method::insert_scans, [this](CallbackServerContext*) {
         return new ScanStreamCall(handler_, log_, mapping_, streams_, memory_);

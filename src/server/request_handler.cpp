@@ -115,11 +115,12 @@ v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
   return reply;
 }
 
-v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& message) {
+v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& message,
+                                                const CancelToken& cancel) {
   check_size(message);
   const Transform T_map_sensor = from_message(message.sensor(), "sensor");
   const Scan scan = scan_from_message(message, static_cast<std::uint64_t>(limits_.max_scan_points));
-  const auto [result, version] = store_.insert(scan, T_map_sensor);
+  const auto [result, version] = store_.insert(scan, T_map_sensor, cancel);
   v1::InsertScanReply reply;
   reply.set_map_version(version);
   reply.set_durable_version(durable_version());

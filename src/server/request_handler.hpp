@@ -28,7 +28,9 @@ class RequestHandler {
   v1::EvaluateReply evaluate(const v1::EvaluateRequest& message,
                              StopRule::Clock::time_point received, const StopRule& stop) const;
 
-  v1::InsertScanReply insert_scan(const v1::InsertScanRequest& message);
+  /// Throws CancelledError, the map then untouched.
+  v1::InsertScanReply insert_scan(const v1::InsertScanRequest& message,
+                                  const CancelToken& cancel = CancelToken());
   v1::LoadMapReply load_map(const v1::LoadMapRequest& message);
   v1::SaveMapReply save_map(const v1::SaveMapRequest& message) const;
   std::shared_ptr<const MapBytes> get_map(const v1::GetMapRequest& message) const;

@@ -35,7 +35,7 @@ class ScanStreamCall final
 
   void insert() {
     const grpc::Status status = logged(log_, Method::insert_scans, received_,
-                                       [this] { reply_ = handler_.insert_scan(scan_); });
+                                       [this] { reply_ = handler_.insert_scan(scan_, cancel_); });
     if (!status.ok()) return Finish(status);
     scan_ = {};  // it may be large, and the next one may be long in coming
     share_.reset();
@@ -52,6 +52,7 @@ class ScanStreamCall final
     Finish(shed_status());
   }
 
+  void OnCancel() override { cancel_.cancel(); }
   void OnDone() override { delete this; }
 
   RequestHandler& handler_;
@@ -60,6 +61,7 @@ class ScanStreamCall final
   const OpenStreams::Place place_;
   MessageMemory& memory_;
   std::optional<MessageMemory::Share> share_;  ///< of `scan_`
+  const CancelToken cancel_;
   v1::InsertScanRequest scan_;
   v1::InsertScanReply reply_;
   StopRule::Clock::time_point received_;

@@ -6,14 +6,17 @@
 #include <map>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
+#include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
 #include "support/camera_pose.hpp"
 #include "support/error_message.hpp"
+#include "support/made_map.hpp"
 #include "support/numbers.hpp"
 
 namespace nbvopt {
@@ -440,6 +443,109 @@ TEST(InsertScan, ClearsARayOfAThousandVoxels) {
     missed += map.at(voxel).state == VoxelState::unknown;
   }
   EXPECT_EQ(missed, 0U);
+}
+
+/// Rays into every direction of a map that other scans have filled: some 30 windows.
+class ScanThatGivesUp : public ::testing::Test {
+ protected:
+  ScanThatGivesUp() {
+    sensor.range_max_m = 60.0;
+    sensor.range_axis = RangeAxis::euclidean;
+    std::mt19937 random(7);
+    std::normal_distribution<float> any;
+    for (int i = 0; i < kRays; ++i) {
+      const Eigen::Vector3f direction(any(random), any(random), any(random));
+      scan.points_m.push_back(20.0F * direction);
+      scan.no_returns.push_back(-direction);
+    }
+  }
+
+  static InsertLimits within(std::uint64_t max_bytes) {
+    InsertLimits limits;
+    limits.max_bytes = max_bytes;
+    return limits;
+  }
+
+  std::string bytes() const { return map_file_bytes(map, MapFormat::uncertainty_ot); }
+
+  void insert(const InsertLimits& limits) {
+    insert_scan(map, scan, looking_along_x(), sensor, limits);
+  }
+
+  static constexpr int kRays = 40;
+  UncertaintyMap map{0.1};
+  SensorOptions sensor;
+  Scan scan;
+};
+
+TEST_F(ScanThatGivesUp, LeavesNothingOfItselfInAnEmptyMap) {
+  const std::string before = bytes();
+  int refused = 0;
+  std::string message;
+  for (std::uint64_t max_bytes = 0;; max_bytes += 20'000'000) {  // some more windows each time
+    message = test::message_of<ScanTooLargeError>([&] { insert(within(max_bytes)); });
+    if (message.empty()) break;
+    ++refused;
+    EXPECT_THAT(message, HasSubstr("lower sensor.range_max_m or take a coarser map"));
+    ASSERT_EQ(bytes(), before) << max_bytes;
+  }
+  EXPECT_GT(refused, 3);
+  EXPECT_LT(refused, 50);
+  EXPECT_NE(bytes(), before);
+}
+
+TEST_F(ScanThatGivesUp, LeavesAMapAsItWas) {
+  insert({});
+  test::set_box(map, test::keys_between(map.lattice(), {-20.0, -10.0, -10.0}, {-17.0, 5.0, 5.0}),
+                test::kFree);  // large leaves
+  map.finish_writing();
+  std::ranges::reverse(scan.points_m);
+  scan.points_m.resize(kRays / 2);
+  for (Eigen::Vector3f& direction : scan.no_returns) direction.x() += 0.3F;
+  const std::string before = bytes();
+  const std::size_t nodes = map.counts().nodes;
+  for (std::uint64_t max_bytes = 1'000'000; max_bytes < 100'000'000; max_bytes += 24'000'000) {
+    EXPECT_THROW(insert(within(max_bytes)), ScanTooLargeError) << max_bytes;
+    ASSERT_EQ(bytes(), before) << max_bytes;
+    EXPECT_EQ(map.counts().nodes, nodes);
+  }
+}
+
+TEST_F(ScanThatGivesUp, HeedsACancellation) {
+  InsertLimits limits;
+  limits.cancel.cancel();
+  EXPECT_THROW(insert(limits), CancelledError);
+  EXPECT_FALSE(map.known_box());
+  scan.points_m.resize(1);  // one window
+  scan.no_returns.clear();
+  EXPECT_THROW(insert(limits), CancelledError);
+  EXPECT_THROW(insert(within(1000)), ScanTooLargeError);
+  EXPECT_FALSE(map.known_box());
+}
+
+/// At any time, that is.
+TEST_F(ScanThatGivesUp, HeedsACancellationInTheMiddle) {
+  insert({});
+  for (int i = 0; i < 2000; ++i) scan.no_returns.push_back(scan.no_returns[i % kRays] * 0.5F);
+  std::ranges::reverse(scan.no_returns);
+  const std::string before = bytes();
+  int cancelled = 0;
+  for (int i = 0; i < 40; ++i) {
+    const InsertLimits limits;
+    std::jthread canceller([&limits, i] {
+      std::this_thread::sleep_for(std::chrono::microseconds(250 * i));
+      limits.cancel.cancel();
+    });
+    try {
+      insert(limits);
+    } catch (const CancelledError&) {
+      ++cancelled;
+      ASSERT_EQ(bytes(), before);
+      continue;
+    }
+    break;  // it was done before
+  }
+  EXPECT_GT(cancelled, 0);
 }
 
 /// OctoMap's own rays, computed in single precision, differ where they graze voxels.

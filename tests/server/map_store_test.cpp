@@ -15,6 +15,7 @@
 namespace nbvopt {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 MapStore make_store(const ServerLimits& limits = {}, std::uint64_t version = 1) {
@@ -98,15 +99,39 @@ TEST(MapStore, RefusesMapsThatAreTooLarge) {
 
 TEST(MapStore, RefusesScansWhenItIsFull) {
   ServerLimits limits;
-  limits.max_map_mib = 1;
+  limits.max_map_mib = 80;
   MapStore store(test::small_robot(), limits, UncertaintyMap(0.02), 1);
   int inserted = 0;
   const std::string message = test::message_of<LimitError>([&] {
-    for (; inserted < 50; ++inserted) store.insert(test::small_scan(), test::scan_pose(inserted));
+    for (; inserted < 50; ++inserted) {
+      Transform T_map_sensor = test::scan_pose(inserted);
+      T_map_sensor.translation().x() += 2.0 * inserted;
+      store.insert(test::small_scan(), T_map_sensor);
+    }
   });
   EXPECT_THAT(message, HasSubstr("max_map_mib"));
   EXPECT_GT(inserted, 0);
   EXPECT_EQ(store.published()->map_version(), static_cast<std::uint64_t>(inserted + 1));
+}
+
+TEST(MapStore, RefusesAScanThatTouchesTooMuch) {
+  ServerLimits limits;
+  limits.max_map_mib = 8;
+  MapStore store(test::small_robot(), limits, UncertaintyMap(0.01), 1);
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
+  EXPECT_THAT(
+      test::message_of<LimitError>([&] { store.insert(test::small_scan(), test::scan_pose(0)); }),
+      AllOf(HasSubstr("coarser map"), HasSubstr("the limit is 8 MiB (max_map_mib)")));
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
+  EXPECT_EQ(store.published()->map_version(), 1U);
+}
+
+TEST(MapStore, HeedsTheCancellationOfAScan) {
+  MapStore store = make_store();
+  const CancelToken cancel;
+  cancel.cancel();
+  EXPECT_THROW(store.insert(test::small_scan(), test::scan_pose(0), cancel), CancelledError);
+  EXPECT_EQ(store.insert(test::small_scan(), test::scan_pose(0)).version, 2U);
 }
 
 TEST(MapStore, RefusesBadScansAndStaysAsItWas) {

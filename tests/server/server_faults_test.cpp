@@ -91,6 +91,39 @@ TEST_F(ServerFaults, ClientIsGoneWhileItTakesTheMap) {
   reader->Finish();
 }
 
+/// A million rays at voxels of a centimetre take seconds.
+TEST_F(ServerFaults, ClientIsGoneInTheMiddleOfALongScan) {
+  const std::uint64_t cleared = running.client.clear_map(0.01);
+  Scan scan;
+  for (int i = 0; i < 1'000'000; ++i) {
+    scan.no_returns.push_back({0.002F * static_cast<float>(i % 1000 - 500),
+                               0.002F * static_cast<float>(i / 1000 - 500), 1.0F});
+  }
+  v1::InsertScanRequest request = scan_request();
+  *request.mutable_points() = to_message(scan);
+  for (const bool is_stream : {false, true}) {
+    grpc::ClientContext context;
+    std::thread canceller([&] {
+      EXPECT_TRUE(test::wait_for_search());
+      context.TryCancel();
+    });
+    v1::InsertScanReply reply;
+    if (is_stream) {
+      const auto stream = stub->InsertScans(&context);
+      stream->Write(request);
+      EXPECT_FALSE(stream->Read(&reply));
+      EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    } else {
+      EXPECT_EQ(stub->InsertScan(&context, request, &reply).error_code(),
+                grpc::StatusCode::CANCELLED);
+    }
+    canceller.join();
+  }
+  EXPECT_EQ(running.client.insert_scan(test::small_scan(), test::scan_pose(0)).map_version,
+            cleared + 1);
+  running.client.load_map("map.ot");
+}
+
 TEST_F(ServerFaults, HalfAScan) {
   v1::InsertScanRequest request = scan_request();
   request.mutable_points()->mutable_xyz_m()->resize(1001);

@@ -34,4 +34,10 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// Work that a CancelToken ended before it was done. Command lines never see it.
+class CancelledError : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace nbvopt

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "nbvopt/core/error.hpp"
+#include "nbvopt/core/stop.hpp"
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
@@ -44,16 +46,31 @@ struct InsertResult : ScanCounts {
   std::int64_t certain_voxels_gained = 0;  ///< what its occupied voxels with u < 1 grew by
 };
 
+/// What makes an insertion give up. The default never does.
+struct InsertLimits {
+  CancelToken cancel;
+  /// What inserting may take at most, bytes, by an upper bound: the nodes and bricks that are new
+  /// and the list of changes, while a grid is updated by them.
+  std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// A scan that would take more memory than InsertLimits allow.
+class ScanTooLargeError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Inserts a scan taken from T_map_sensor: the voxels that a ray passes become freer, the one
 /// that holds the point becomes more occupied and keeps the minimum u of all its observations,
 /// the first included (Eq. 9). Occupied wins over free within one scan. A return at or beyond
 /// D_max says the same as no return: its ray is clear up to D_max, the last voxel included
 /// (unless `no_return` is ignore). Throws InputError when the pose is not finite or lies off the
 /// lattice, the sensor's options are bad, or every point lies farther than 50 D_max, which is a
-/// slip of the unit and would clear the map; UsageError when colours and points differ in number.
-/// The map is then untouched.
+/// slip of the unit and would clear the map; UsageError when colours and points differ in number;
+/// ScanTooLargeError beyond `limits`, and CancelledError some milliseconds after they were
+/// cancelled, unless all that is left is writing what one camera sees. The map is then untouched.
 InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform& T_map_sensor,
-                         const SensorOptions& sensor);
+                         const SensorOptions& sensor, const InsertLimits& limits = {});
 
 /// Where the points lie, by their range alone.
 ScanCounts count_scan(const Scan& scan, const SensorOptions& sensor);

@@ -77,6 +77,9 @@ class UncertaintyMap {
   /// How many bricks of 32 x 32 x 32 voxels hold anything known: what a whole VoxelGrid takes.
   std::uint64_t known_bricks() const;
 
+  /// What the tree takes, bytes, to a tenth or so; takes no time.
+  std::uint64_t memory_bytes() const;
+
   /// Whether any occupied voxel carries u < 1. Plain OctoMaps carry none.
   bool carries_uncertainty() const;
 

@@ -1,0 +1,56 @@
+#include "map/tile_undo.hpp"
+
+#include "map/subtree.hpp"
+#include "map/tile_update.hpp"
+
+namespace nbvopt {
+
+namespace {
+
+unsigned index_below(int depth, VoxelKey tile) {
+  return octomap::computeChildIdx(octomap_key(tile), UncertaintyOcTree::kDepth - 1 - depth);
+}
+
+}  // namespace
+
+void TileUndo::keep(VoxelKey tile) {
+  kept_.push_back({tile, {}});
+  const Node* node = tree_.getRoot();
+  for (int depth = 0; node != nullptr && depth < kTileDepth && tree_.nodeHasChildren(node);
+       ++depth) {
+    const unsigned index = index_below(depth, tile);
+    node = tree_.nodeChildExists(node, index) ? tree_.getNodeChild(node, index) : nullptr;
+  }
+  if (node != nullptr) append_subtree(tree_, *node, kept_.back().bytes);
+}
+
+void TileUndo::restore() {
+  for (const Kept& kept : kept_) {
+    if (tree_.getRoot() != nullptr && !restore(*tree_.getRoot(), 0, kept)) tree_.clear();
+  }
+  kept_.clear();
+}
+
+bool TileUndo::restore(Node& node, int depth, const Kept& kept) {
+  if (depth == kTileDepth) {
+    if (kept.bytes.empty()) {
+      tree_.delete_children(node);
+      return false;
+    }
+    restore_subtree(tree_, node, kept.bytes);
+    return true;
+  }
+  const unsigned index = index_below(depth, kept.tile);
+  if (!tree_.nodeHasChildren(&node)) tree_.expandNode(&node);  // pruned since
+  if (!restore(*tree_.getNodeChild(&node, index), depth + 1, kept)) {
+    tree_.deleteNodeChild(&node, index);
+    if (!tree_.nodeHasChildren(&node)) {
+      node.free_child_array();
+      return false;
+    }
+  }
+  tree_.update_inner_node(node);
+  return true;
+}
+
+}  // namespace nbvopt
