@@ -150,7 +150,8 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
   add_whole_number(serve, "--max-connections", limits.max_connections, 1, kMost,
                    "of clients; fewer where the system allows few open files");
   add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,
-                   "calls that wait for a thread; more are refused with RESOURCE_EXHAUSTED");
+                   "calls of a client that wait for a thread; more are refused with "
+                   "RESOURCE_EXHAUSTED");
 }
 
 void add_access(CLI::App& serve, ServerOptions& options) {

@@ -16,7 +16,7 @@ struct ServerLimits {
   double min_resolution_m = 0.01;    ///< the smallest voxels of a map
   std::int64_t max_map_mib = 2048;   ///< of the map: its tree and the bricks that plans read
   double max_compute_ms = 10'000.0;  ///< of a plan or a call of Evaluate
-  std::int64_t max_waiting = 64;     ///< calls that wait for a thread, of each kind of work
+  std::int64_t max_waiting = 64;     ///< calls of a client that wait for a thread, by kind of work
   std::int64_t max_streams = 256;    ///< streams that are open
   /// Of all messages that are coming in, and again of all that wait or are at work.
   std::int64_t max_buffered_mib = 256;

@@ -1,13 +1,20 @@
 #include "server/plan_stream.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace nbvopt {
 
 PlanStreamCall::PlanStreamCall(const grpc::CallbackServerContext& context,
                                const RequestHandler& handler, CallLog& log, WorkQueue& queue,
-                               OpenStreams& streams)
-    : limits_(context), handler_(handler), log_(log), queue_(queue), place_(streams) {
+                               OpenStreams& streams, MessageMemory& memory)
+    : limits_(context),
+      client_(streams_of(context)),
+      handler_(handler),
+      log_(log),
+      queue_(queue),
+      place_(streams),
+      memory_(memory) {
   if (place_.is_taken()) {
     StartRead(&incoming_);
   } else {
@@ -21,12 +28,18 @@ void PlanStreamCall::OnReadDone(bool ok) {
   {
     const std::scoped_lock lock(mutex_);
     if (ok) {
-      newest_ = State{std::move(incoming_), StopRule::Clock::now()};
-      incoming_.Clear();
-    } else {
-      all_read_ = true;  // or the client is gone
+      auto share = std::make_unique<MessageMemory::Share>(memory_, incoming_.SpaceUsedLong());
+      if (share->is_granted()) {
+        newest_ = State{std::move(incoming_), StopRule::Clock::now(), std::move(share)};
+      } else {
+        log_.record_shed(Method::plan_stream);
+        newest_.reset();
+        outcome_ = shed_status();
+      }
+      incoming_ = {};
     }
-    read_on = ok && !ended_;
+    read_on = ok && outcome_.ok() && !ended_;
+    if (!read_on) all_read_ = true;  // or the client is gone
   }
   if (read_on) StartRead(&incoming_);
   go_on();
@@ -59,8 +72,8 @@ void PlanStreamCall::go_on() {
       ended_ = true;
     }
   }
-  if (!has_work) return Finish(grpc::Status::OK);
-  if (queue_.try_post([this] { plan(); })) return;
+  if (!has_work) return Finish(outcome_);
+  if (queue_.try_post([this] { plan(); }, client_)) return;
   log_.record_shed(Method::plan_stream);
   end(shed_status());
 }
@@ -69,6 +82,7 @@ void PlanStreamCall::plan() {
   const grpc::Status status = logged(log_, Method::plan_stream, planned_.received, [this] {
     reply_ = handler_.plan(planned_.request, planned_.received, limits_.stop());
   });
+  planned_ = {};  // it may be large, and the next one may be long in coming
   if (!status.ok()) return end(status);
   StartWrite(&reply_);
 }

@@ -1,8 +1,10 @@
 // PlanStream: the driver sends its state at its own rate, the server answers for the newest.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "nbvopt/v1/planner.pb.h"
 #include "server/limits.hpp"
@@ -17,7 +19,7 @@ namespace nbvopt {
 class PlanStreamCall final : public grpc::ServerBidiReactor<v1::PlanRequest, v1::PlanReply> {
  public:
   PlanStreamCall(const grpc::CallbackServerContext& context, const RequestHandler& handler,
-                 CallLog& log, WorkQueue& queue, OpenStreams& streams);
+                 CallLog& log, WorkQueue& queue, OpenStreams& streams, MessageMemory& memory);
 
  private:
   void OnReadDone(bool ok) override;
@@ -36,13 +38,16 @@ class PlanStreamCall final : public grpc::ServerBidiReactor<v1::PlanRequest, v1:
   struct State {
     v1::PlanRequest request;
     StopRule::Clock::time_point received;
+    std::unique_ptr<MessageMemory::Share> share;
   };
 
   const CallLimits limits_;
+  const std::string client_;
   const RequestHandler& handler_;
   CallLog& log_;
   WorkQueue& queue_;
   const OpenStreams::Place place_;
+  MessageMemory& memory_;
 
   v1::PlanRequest incoming_;  ///< gRPC writes it between StartRead() and OnReadDone()
   v1::PlanReply reply_;       ///< gRPC reads it between StartWrite() and OnWriteDone()
@@ -52,6 +57,7 @@ class PlanStreamCall final : public grpc::ServerBidiReactor<v1::PlanRequest, v1:
   std::optional<State> newest_;
   bool busy_ = false;  ///< a plan is at work, or its answer under way
   bool all_read_ = false;
+  grpc::Status outcome_;  ///< once all is read
   bool ended_ = false;
 };
 

@@ -71,7 +71,7 @@ void PlannerService::add_planning() {
       });
   add_streams<v1::PlanRequest, v1::PlanReply>(
       Method::plan_stream, [this](CallbackServerContext* context) {
-        return new PlanStreamCall(*context, handler_, log_, planning_, streams_);
+        return new PlanStreamCall(*context, handler_, log_, planning_, streams_, memory_);
       });
   add_unary<v1::EvaluateRequest, v1::EvaluateReply>(
       Method::evaluate, always(planning_), [this](const auto& request, const CallLimits& limits) {
@@ -85,8 +85,8 @@ void PlannerService::add_mapping() {
         return handler_.insert_scan(request, limits.stop().cancel);
       });
   add_streams<v1::InsertScanRequest, v1::InsertScanReply>(
-      Method::insert_scans, [this](CallbackServerContext*) {
-        return new ScanStreamCall(handler_, log_, mapping_, streams_, memory_);
+      Method::insert_scans, [this](CallbackServerContext* context) {
+        return new ScanStreamCall(*context, handler_, log_, mapping_, streams_, memory_);
       });
   add_unary<v1::ClearMapRequest, v1::ClearMapReply>(
       Method::clear_map, always(mapping_),

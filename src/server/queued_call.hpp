@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <string>
 
 #include "nbvopt/core/stop.hpp"
 #include "server/call_log.hpp"
@@ -44,6 +45,13 @@ class CallLimits {
   StopRule::Clock::time_point received_ = StopRule::Clock::now();
   StopRule stop_;
 };
+
+/// Who shares a turn on a queue: the calls of a connection, and apart from them its streams, which
+/// ask for more whenever they are answered. gRPC tells connections over a Unix socket not apart.
+inline std::string calls_of(const grpc::CallbackServerContext& context) { return context.peer(); }
+inline std::string streams_of(const grpc::CallbackServerContext& context) {
+  return context.peer() + " streams";
+}
 
 /// Does a piece of work that was received then, and logs how it went.
 template <typename Run>

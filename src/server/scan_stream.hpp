@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "nbvopt/v1/planner.pb.h"
 #include "server/limits.hpp"
@@ -15,9 +16,14 @@ namespace nbvopt {
 class ScanStreamCall final
     : public grpc::ServerBidiReactor<v1::InsertScanRequest, v1::InsertScanReply> {
  public:
-  ScanStreamCall(RequestHandler& handler, CallLog& log, WorkQueue& queue, OpenStreams& streams,
-                 MessageMemory& memory)
-      : handler_(handler), log_(log), queue_(queue), place_(streams), memory_(memory) {
+  ScanStreamCall(const grpc::CallbackServerContext& context, RequestHandler& handler, CallLog& log,
+                 WorkQueue& queue, OpenStreams& streams, MessageMemory& memory)
+      : client_(streams_of(context)),
+        handler_(handler),
+        log_(log),
+        queue_(queue),
+        place_(streams),
+        memory_(memory) {
     if (place_.is_taken()) {
       StartRead(&scan_);
     } else {
@@ -30,7 +36,7 @@ class ScanStreamCall final
     if (!ok) return Finish(grpc::Status::OK);  // all are read, or the client is gone
     received_ = StopRule::Clock::now();
     share_.emplace(memory_, scan_.SpaceUsedLong());
-    if (!share_->is_granted() || !queue_.try_post([this] { insert(); })) shed();
+    if (!share_->is_granted() || !queue_.try_post([this] { insert(); }, client_)) shed();
   }
 
   void insert() {
@@ -55,6 +61,7 @@ class ScanStreamCall final
   void OnCancel() override { cancel_.cancel(); }
   void OnDone() override { delete this; }
 
+  const std::string client_;
   RequestHandler& handler_;
   CallLog& log_;
   WorkQueue& queue_;

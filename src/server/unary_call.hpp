@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "server/limits.hpp"
@@ -31,6 +32,7 @@ class UnaryCall final : public grpc::ServerBidiReactor<Request, Reply>, private 
   UnaryCall(const grpc::CallbackServerContext& context, const UnaryCallParts& parts, Method method,
             QueueOf queue_of, Run run)
       : limits_(context),
+        client_(calls_of(context)),
         parts_(parts),
         method_(method),
         queue_of_(std::move(queue_of)),
@@ -48,7 +50,7 @@ class UnaryCall final : public grpc::ServerBidiReactor<Request, Reply>, private 
     }
     limits_.restart();
     share_.emplace(parts_.memory, request_.SpaceUsedLong());
-    if (share_->is_granted() && queue_of_(request_).try_post([this] { work(); })) return;
+    if (share_->is_granted() && queue_of_(request_).try_post([this] { work(); }, client_)) return;
     parts_.log.record_shed(method_);
     this->Finish(shed_status());
   }
@@ -76,6 +78,7 @@ class UnaryCall final : public grpc::ServerBidiReactor<Request, Reply>, private 
   void OnDone() override { delete this; }
 
   CallLimits limits_;
+  const std::string client_;
   const UnaryCallParts parts_;
   const Method method_;
   const QueueOf queue_of_;

@@ -315,6 +315,34 @@ TEST_F(ServerFaults, MoreStreamsThanItHolds) {
   }
 }
 
+TEST_F(ServerFaults, StreamsLeavePlacesToOtherCalls) {
+  const test::RunningServer other({.max_waiting = 2});
+  const auto other_stub = other.stub();
+  constexpr int kStreams = 6;  // two are at work, two wait, two are shed
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<grpc::ClientReaderWriter<v1::PlanRequest, v1::PlanReply>>> streams;
+  for (int i = 0; i < kStreams; ++i) {
+    contexts.push_back(std::make_unique<grpc::ClientContext>());
+    streams.push_back(other_stub->PlanStream(contexts.back().get()));
+    streams.back()->Write(test::RunningServer::long_request());
+  }
+  const auto shed = [&] {
+    grpc::ClientContext context;
+    v1::GetStatusReply status;
+    EXPECT_TRUE(other_stub->GetStatus(&context, {}, &status).ok());
+    return status.latencies(1).shed();
+  };
+  EXPECT_TRUE(test::wait_until([&] { return shed() == 2; }));
+  std::jthread canceller([&] {
+    EXPECT_TRUE(test::wait_for_search());
+    for (const auto& context : contexts) context->TryCancel();
+  });
+  grpc::ClientContext context;
+  v1::PlanReply reply;
+  EXPECT_TRUE(other_stub->Plan(&context, to_message(test::small_request()), &reply).ok());
+  for (const auto& stream : streams) stream->Finish();
+}
+
 TEST_F(ServerFaults, StopsInTheMiddleOfCalls) {
   test::RunningServer other;
   const auto other_stub = other.stub();

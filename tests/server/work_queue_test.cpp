@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <latch>
+#include <string>
 #include <vector>
 
 namespace nbvopt {
@@ -47,6 +48,46 @@ TEST(WorkQueue, RefusesWhatExceedsItsPlaces) {
     go.count_down();
   }
   EXPECT_EQ(done, 5);
+}
+
+/// A queue whose only thread is busy until it is let go.
+class BusyQueue {
+ public:
+  explicit BusyQueue(std::size_t max_waiting) : queue(1, max_waiting) {
+    queue.try_post([this] {
+      started_.count_down();
+      go_.wait();
+    });
+    started_.wait();
+  }
+  ~BusyQueue() { go_.count_down(); }
+
+ private:
+  std::latch started_{1};
+  std::latch go_{1};
+
+ public:
+  WorkQueue queue;
+};
+
+TEST(WorkQueue, LetsClientsTakeTurns) {
+  std::string done;
+  {
+    BusyQueue busy(20);
+    for (const char* name : {"a", "a", "a", "a", "b", "b", "c"}) {
+      EXPECT_TRUE(busy.queue.try_post([&done, name] { done += name; }, name));
+    }
+  }
+  EXPECT_EQ(done, "abcabaa");
+}
+
+TEST(WorkQueue, HasPlacesForEachClient) {
+  BusyQueue busy(2);
+  const auto nothing = [] {};
+  EXPECT_TRUE(busy.queue.try_post(nothing, "many"));
+  EXPECT_TRUE(busy.queue.try_post(nothing, "many"));
+  EXPECT_FALSE(busy.queue.try_post(nothing, "many"));
+  EXPECT_TRUE(busy.queue.try_post(nothing, "other"));
 }
 
 TEST(WorkQueue, TakesWorkFromManyThreads) {
