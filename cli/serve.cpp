@@ -139,7 +139,7 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
   add_number(serve, "--min-resolution", limits.min_resolution_m, "M", "the map's smallest voxels");
   add_whole_number(
       serve, "--max-map-mib", limits.max_map_mib, 1, kMost,
-      "of the map: its tree and the bricks that plans read; scans that could pass it are refused");
+      "of the map: tree, bricks that plans read, and copies; scans that could pass it are refused");
   add_number(serve, "--max-compute-ms", limits.max_compute_ms, "MS",
              "of a plan or a call of Evaluate");
   add_whole_number(serve, "--max-streams", limits.max_streams, 1, kMost, "that are open");

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -79,17 +80,22 @@ void keep_backup(int folder, const std::string& name) {
   if (is_linked) ::unlinkat(folder, link.c_str(), 0);
 }
 
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+/// What a file is to hold, piece by piece.
+using Pieces = std::span<const std::string_view>;
+
+bool write_all(int descriptor, Pieces pieces) {
+  for (std::string_view bytes : pieces) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
   }
   return true;
 }
 
-void write_in_place(const fs::path& path, std::string_view bytes) {
+void write_in_place(const fs::path& path, Pieces bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (!file.is_open() || !write_all(file.get(), bytes) || !file.close()) fail();
 }
@@ -141,7 +147,7 @@ namespace {
 
 enum class Replaced { is_removed, is_kept };
 
-void write_at(int folder, const std::string& name, std::string_view bytes, Replaced replaced_file) {
+void write_at(int folder, const std::string& name, Pieces bytes, Replaced replaced_file) {
   TemporaryFile temporary(folder, name);
   Descriptor& file = temporary.file();
   struct stat replaced {};
@@ -154,7 +160,7 @@ void write_at(int folder, const std::string& name, std::string_view bytes, Repla
   ::fsync(folder);
 }
 
-void write(const fs::path& path, std::string_view bytes, Replaced replaced_file) {
+void write(const fs::path& path, Pieces bytes, Replaced replaced_file) {
   naming(path, [&] {
     std::error_code ignored;
     if (fs::is_other(fs::status(path, ignored))) return write_in_place(path, bytes);
@@ -166,16 +172,20 @@ void write(const fs::path& path, std::string_view bytes, Replaced replaced_file)
 
 }  // namespace
 
-void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes) {
-  write_at(folder, name, bytes, Replaced::is_removed);
+void write_file_atomically_at(int folder, const std::string& name, Pieces pieces) {
+  write_at(folder, name, pieces, Replaced::is_removed);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  write(path, bytes, Replaced::is_removed);
+  write_file_atomically(path, Pieces(&bytes, 1));
+}
+
+void write_file_atomically(const fs::path& path, Pieces pieces) {
+  write(path, pieces, Replaced::is_removed);
 }
 
 void write_file_with_backup(const fs::path& path, std::string_view bytes) {
-  write(path, bytes, Replaced::is_kept);
+  write(path, Pieces(&bytes, 1), Replaced::is_kept);
 }
 
 fs::path backup_of(const fs::path& path) { return checked_target(path) += kBackup; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,10 @@ namespace nbvopt {
 /// existing file keeps its permissions; a device or pipe is written in place.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// The same for bytes in pieces.
+void write_file_atomically(const std::filesystem::path& path,
+                           std::span<const std::string_view> pieces);
+
 /// The same; the file that it replaces, if any, remains as `backup_of(path)`, where it replaces an
 /// older backup. At every moment the file's old or new content is there. A device has no backup.
 void write_file_with_backup(const std::filesystem::path& path, std::string_view bytes);
@@ -22,7 +27,8 @@ std::filesystem::path backup_of(const std::filesystem::path& path);
 
 /// The same for the file of that name in an open folder; a link is replaced, not followed. Throws
 /// std::system_error.
-void write_file_atomically_at(int folder, const std::string& name, std::string_view bytes);
+void write_file_atomically_at(int folder, const std::string& name,
+                              std::span<const std::string_view> pieces);
 
 /// Throws InputError as write_file_atomically() would for a folder that is missing or not writable:
 /// to refuse a file before the work whose result it should hold.

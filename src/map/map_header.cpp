@@ -99,4 +99,13 @@ MapHeader read_map_header(ByteReader& in, const std::string& name,
   refuse(name, "the header has too many lines, the file is damaged");
 }
 
+std::string map_file_header(const char* magic, const char* tree_type, std::uint64_t nodes,
+                            double resolution_m) {
+  return std::string(magic) +
+         "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+         "id " +
+         tree_type + "\nsize " + std::to_string(nodes) + "\nres " + format_number(resolution_m) +
+         "\ndata\n";
+}
+
 }  // namespace nbvopt

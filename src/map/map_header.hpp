@@ -26,4 +26,8 @@ struct MapHeader {
 MapHeader read_map_header(ByteReader& in, const std::string& name,
                           std::vector<std::string>& warnings);
 
+/// The header as OctoMap writes it, but with the resolution's every digit.
+std::string map_file_header(const char* magic, const char* tree_type, std::uint64_t nodes,
+                            double resolution_m);
+
 }  // namespace nbvopt

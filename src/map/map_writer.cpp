@@ -3,12 +3,12 @@
 #include <string>
 
 #include "core/atomic_file.hpp"
-#include "core/number.hpp"
 #include "map/append_number.hpp"
 #include "map/map_access.hpp"
 #include "map/map_header.hpp"
 #include "map/map_points.hpp"
 #include "map/subtree.hpp"
+#include "map/tree_reader.hpp"
 #include "nbvopt/map/colour_ramp.hpp"
 #include "nbvopt/map/map_file.hpp"
 
@@ -18,18 +18,9 @@ namespace {
 
 using Node = UncertaintyOcTreeNode;
 
-/// The header as OctoMap writes it, but with the resolution's every digit.
-std::string header(const char* magic, const char* tree_type, std::uint64_t nodes,
-                   double resolution_m) {
-  return std::string(magic) +
-         "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
-         "id " +
-         tree_type + "\nsize " + std::to_string(nodes) + "\nres " + format_number(resolution_m) +
-         "\ndata\n";
-}
-
 std::string uncertainty_file(const UncertaintyOcTree& tree) {
-  std::string bytes = header(kFullMagic, "UncertaintyOcTree", tree.size(), tree.getResolution());
+  std::string bytes =
+      map_file_header(kFullMagic, kUncertaintyType, tree.size(), tree.getResolution());
   if (tree.getRoot() != nullptr) append_subtree(tree, *tree.getRoot(), bytes);
   return bytes;
 }
@@ -43,8 +34,8 @@ std::string colour_file(const UncertaintyOcTree& tree) {
     append(to, node.getLogOdds());
     append(to, shown_colour(tree, node));
   };
-  std::string bytes = header(kFullMagic, "ColorOcTree", tree.size(), tree.getResolution());
-  if (tree.getRoot() != nullptr) append_full_node(tree, *tree.getRoot(), append_values, bytes);
+  std::string bytes = map_file_header(kFullMagic, "ColorOcTree", tree.size(), tree.getResolution());
+  if (tree.getRoot() != nullptr) append_full_subtree(tree, *tree.getRoot(), append_values, bytes);
   return bytes;
 }
 
@@ -58,7 +49,7 @@ class BinaryWriter {
       ++nodes_;
       append_children(*root);
     }
-    return header(kBinaryMagic, "OcTree", nodes_, tree_.getResolution()) + bytes_;
+    return map_file_header(kBinaryMagic, "OcTree", nodes_, tree_.getResolution()) + bytes_;
   }
 
  private:

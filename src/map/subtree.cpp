@@ -10,6 +10,12 @@ namespace {
 
 using Node = UncertaintyOcTreeNode;
 
+void append_all_values(const Node& node, std::string& bytes) {
+  append(bytes, node.getLogOdds());
+  append(bytes, node.colour());
+  append(bytes, node.uncertainty());
+}
+
 /// Fills a node without children from its bytes; returns where they end.
 const char* read_subtree(UncertaintyOcTree& tree, Node& node, const char* bytes) {
   const auto take = [&bytes](auto& value) {
@@ -35,13 +41,23 @@ const char* read_subtree(UncertaintyOcTree& tree, Node& node, const char* bytes)
 
 }  // namespace
 
+FoundNode find_node(const UncertaintyOcTree& tree, VoxelKey key, int depth) {
+  FoundNode found{tree.getRoot(), 0};
+  while (found.node != nullptr && found.depth < depth && tree.nodeHasChildren(found.node)) {
+    const unsigned index =
+        octomap::computeChildIdx(octomap_key(key), UncertaintyOcTree::kDepth - 1 - found.depth);
+    const bool is_known = tree.nodeChildExists(found.node, index);
+    found = {is_known ? tree.getNodeChild(found.node, index) : nullptr, found.depth + 1};
+  }
+  return found;
+}
+
+void append_node(const UncertaintyOcTree& tree, const Node& node, std::string& bytes) {
+  append_full_node(tree, node, append_all_values, bytes);
+}
+
 void append_subtree(const UncertaintyOcTree& tree, const Node& node, std::string& bytes) {
-  const auto append_values = [](const Node& each, std::string& to) {
-    append(to, each.getLogOdds());
-    append(to, each.colour());
-    append(to, each.uncertainty());
-  };
-  append_full_node(tree, node, append_values, bytes);
+  append_full_subtree(tree, node, append_all_values, bytes);
 }
 
 void restore_subtree(UncertaintyOcTree& tree, Node& node, const std::string& bytes) {

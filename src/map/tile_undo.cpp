@@ -5,22 +5,9 @@
 
 namespace nbvopt {
 
-namespace {
-
-unsigned index_below(int depth, VoxelKey tile) {
-  return octomap::computeChildIdx(octomap_key(tile), UncertaintyOcTree::kDepth - 1 - depth);
-}
-
-}  // namespace
-
 void TileUndo::keep(VoxelKey tile) {
   kept_.push_back({tile, {}});
-  const Node* node = tree_.getRoot();
-  for (int depth = 0; node != nullptr && depth < kTileDepth && tree_.nodeHasChildren(node);
-       ++depth) {
-    const unsigned index = index_below(depth, tile);
-    node = tree_.nodeChildExists(node, index) ? tree_.getNodeChild(node, index) : nullptr;
-  }
+  const Node* node = find_node(tree_, tile, kTileDepth).node;
   if (node != nullptr) append_subtree(tree_, *node, kept_.back().bytes);
 }
 
@@ -40,7 +27,8 @@ bool TileUndo::restore(Node& node, int depth, const Kept& kept) {
     restore_subtree(tree_, node, kept.bytes);
     return true;
   }
-  const unsigned index = index_below(depth, kept.tile);
+  const unsigned index =
+      octomap::computeChildIdx(octomap_key(kept.tile), UncertaintyOcTree::kDepth - 1 - depth);
   if (!tree_.nodeHasChildren(&node)) tree_.expandNode(&node);  // pruned since
   if (!restore(*tree_.getNodeChild(&node, index), depth + 1, kept)) {
     tree_.deleteNodeChild(&node, index);

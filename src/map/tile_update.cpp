@@ -21,6 +21,7 @@ Colour fused_colour(const Colour& before, const HitVoxel& hit) {
 
 void TileUpdate::apply(std::uint32_t tile) {
   if (window_.content(MarkWindow::kTileBits, tile) == kUntouched) return;
+  result_.tiles.push_back(window_.key(tile << 3 * MarkWindow::kTileBits));
   const bool is_new = tree_.getRoot() == nullptr;
   descend(tree_.make_root(), is_new, 0, tile);
 }

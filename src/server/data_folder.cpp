@@ -92,7 +92,7 @@ Descriptor DataFolder::open(const std::string& text) const {
   return file;
 }
 
-void DataFolder::write(const std::string& text, std::string_view bytes) const {
+void DataFolder::write(const std::string& text, const SharedBytes& bytes) const {
   const fs::path path = checked(text);
   const Descriptor parent = open_parent(path);
   if (is_link(parent.get(), path.filename().c_str())) {
@@ -114,7 +114,7 @@ void DataFolder::write(const std::string& text, std::string_view bytes) const {
     }
   }
   try {
-    write_file_atomically_at(parent.get(), name, bytes);
+    write_file_atomically_at(parent.get(), name, bytes.views());
   } catch (const std::system_error& error) {
     const std::string message = "'" + text + "': cannot be written: " + error.code().message();
     if (is_of_disk(error.code())) throw RequestError(grpc::StatusCode::DATA_LOSS, message);

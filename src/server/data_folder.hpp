@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
+#include "core/shared_bytes.hpp"
 
 namespace nbvopt {
 
@@ -24,7 +25,7 @@ class DataFolder {
 
   /// Writes a file atomically. Throws RequestError as above, of code DATA_LOSS where the disk is
   /// full or faulty, and InputError for what else keeps it from being written.
-  void write(const std::string& text, std::string_view bytes) const;
+  void write(const std::string& text, const SharedBytes& bytes) const;
 
  private:
   /// The folder that holds the file of that path.

@@ -14,7 +14,7 @@ struct ServerLimits {
   std::int64_t max_views = 10'000;   ///< a call of Evaluate
   double max_map_extent_m = 500.0;   ///< the longest side of the map's box
   double min_resolution_m = 0.01;    ///< the smallest voxels of a map
-  std::int64_t max_map_mib = 2048;   ///< of the map: its tree and the bricks that plans read
+  std::int64_t max_map_mib = 2048;   ///< of the map: tree, bricks that plans read, and copies
   double max_compute_ms = 10'000.0;  ///< of a plan or a call of Evaluate
   std::int64_t max_waiting = 64;     ///< calls of a client that wait for a thread, by kind of work
   std::int64_t max_streams = 256;    ///< streams that are open

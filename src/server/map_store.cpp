@@ -1,5 +1,8 @@
 #include "server/map_store.hpp"
 
+#include <chrono>
+#include <sstream>
+#include <thread>
 #include <utility>
 
 #include "core/number.hpp"
@@ -33,7 +36,8 @@ void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
 MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_sensor,
                                      const CancelToken& cancel) {
   const std::scoped_lock lock(tree_mutex_);
-  const std::uint64_t used_bytes = map_.memory_bytes() + grid_->memory_bytes();
+  const std::uint64_t used_bytes =
+      map_.memory_bytes() + grid_->memory_bytes() + image_.held_bytes();
   check_size(used_bytes);
   Eigen::AlignedBox3d extent_m = extent_m_;
   const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(robot_.sensor.longest_range_m());
@@ -57,8 +61,10 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
     throw;
   } catch (...) {
     is_grid_behind_ = true;
+    image_.forget_all();
     throw;
   }
+  image_.forget(insertion.result.tiles);
   extent_m_ = extent_m;
   hazards_ = hazards;
   is_grid_behind_ = true;
@@ -73,6 +79,7 @@ std::uint64_t MapStore::replace(UncertaintyMap map) {
   const std::scoped_lock lock(tree_mutex_);
   publish(VoxelGrid::whole(map, grid_->version() + 1));
   map_ = std::move(map);
+  image_.forget_all();
   extent_m_ = extent_m;
   is_grid_behind_ = false;
   return grid_->version();
@@ -84,16 +91,37 @@ std::uint64_t MapStore::clear(std::optional<double> resolution_m) {
 }
 
 std::shared_ptr<const MapBytes> MapStore::bytes(MapFormat format) const {
-  const std::scoped_lock lock(tree_mutex_);
+  const std::scoped_lock lock(bytes_mutex_);
   std::weak_ptr<const MapBytes>& last = bytes_[format];
   std::shared_ptr<const MapBytes> bytes = last.lock();
-  if (bytes == nullptr || bytes->version != grid_->version()) {
-    MapBytes made{map_file_bytes(map_, format), grid_->version(), std::nullopt};
-    if (robot_.sensor.gain.has(GainKind::expected)) made.hazards = hazards_;
-    bytes = std::make_shared<const MapBytes>(std::move(made));
-    last = bytes;
+  if (bytes != nullptr && bytes->version == published()->map_version()) return bytes;
+  MapBytes made = copy();
+  if (format != MapFormat::uncertainty_ot) {
+    std::istringstream file(made.bytes.joined());
+    made.bytes = SharedBytes(map_file_bytes(read_map(file, "the map"), format));
   }
+  bytes = std::make_shared<const MapBytes>(std::move(made));
+  last = bytes;
   return bytes;
+}
+
+MapBytes MapStore::copy() const {
+  constexpr std::chrono::milliseconds kSlice{2};
+  std::unique_lock lock(tree_mutex_);
+  const std::vector<VoxelKey> tiles = image_.missing(map_);
+  auto slice_end = StopRule::Clock::now() + kSlice;
+  for (const VoxelKey& tile : tiles) {
+    image_.copy(map_, tile);
+    if (StopRule::Clock::now() < slice_end) continue;
+    lock.unlock();
+    std::this_thread::sleep_for(kSlice);  // or this thread might take the lock again at once
+    lock.lock();
+    slice_end = StopRule::Clock::now() + kSlice;
+  }
+  // What scans have written meanwhile is copied again.
+  MapBytes made{image_.file(map_), grid_->version(), std::nullopt};
+  if (robot_.sensor.gain.has(GainKind::expected)) made.hazards = hazards_;
+  return made;
 }
 
 VersionedCounts MapStore::counts() const {

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "core/shared_bytes.hpp"
+#include "map/map_image.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/planner/view_planner.hpp"
@@ -18,7 +20,7 @@ namespace nbvopt {
 
 /// A map as the bytes of a file.
 struct MapBytes {
-  std::string bytes;
+  SharedBytes bytes;
   std::uint64_t version = 0;
   std::optional<HazardTable> hazards;  ///< learnt up to there, where the gain is expected
 };
@@ -29,8 +31,9 @@ struct VersionedCounts {
   std::uint64_t version = 0;
 };
 
-/// Safe to share between threads. Those who change or copy the tree wait for each other; nobody
-/// waits for them who reads what is published.
+/// Safe to share between threads. Those who change or copy the tree wait for each other, a copy
+/// letting the others pass every few milliseconds; nobody waits for them who reads what is
+/// published.
 class MapStore {
  public:
   /// Holds `map` as version `version`; what scans teach is added to `hazards`. Throws LimitError
@@ -61,7 +64,8 @@ class MapStore {
   /// Throws as UncertaintyMap does.
   std::uint64_t clear(std::optional<double> resolution_m);
 
-  /// The newest version as a file, shared by all who ask for it at the same time.
+  /// A version as a file, the newest or one published since this was called. Copied from the tree
+  /// bit by bit, so that scans wait for milliseconds; what versions have in common is shared.
   std::shared_ptr<const MapBytes> bytes(MapFormat format) const;
 
   /// Counts, kept until the map changes.
@@ -77,6 +81,8 @@ class MapStore {
   std::uint64_t max_bytes() const;
   /// Which limit it is that a map or a scan goes beyond.
   std::string limit_text() const;
+  /// The newest version as an .ot with everything in it.
+  MapBytes copy() const;
   void publish(std::shared_ptr<const VoxelGrid> grid);
   /// Publishes the tree as it is, whatever the grid holds.
   void publish_whole() { publish(VoxelGrid::whole(map_, grid_->version() + 1)); }
@@ -91,6 +97,9 @@ class MapStore {
   HazardTable hazards_;          ///< learnt from the scans, where the robot's gain is expected
   bool is_grid_behind_ = false;  ///< an insertion failed half way, out of memory, say
   mutable VersionedCounts counts_;
+  mutable MapImage image_;
+
+  mutable std::mutex bytes_mutex_;  ///< of what follows; taken before that of the tree
   mutable std::map<MapFormat, std::weak_ptr<const MapBytes>> bytes_;
 
   mutable std::mutex published_mutex_;  ///< held for the copy of one pointer

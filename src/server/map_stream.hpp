@@ -1,7 +1,9 @@
 // GetMap: the bytes of a map file, in chunks as the client takes them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "nbvopt/v1/planner.pb.h"
 #include "server/limits.hpp"
@@ -34,13 +36,24 @@ class MapStreamCall final : public grpc::ServerWriteReactor<v1::MapChunk> {
 
   void write_chunk() {
     constexpr std::size_t kChunkBytes = 1 << 20;
-    chunk_.set_data(map_->bytes.substr(sent_, kChunkBytes));
-    sent_ += chunk_.data().size();
+    std::string& data = *chunk_.mutable_data();
+    data.clear();
+    for (; piece_ < pieces().size() && data.size() < kChunkBytes;) {
+      const std::string& piece = *pieces()[piece_];
+      const std::size_t count = std::min(kChunkBytes - data.size(), piece.size() - sent_of_piece_);
+      data.append(piece, sent_of_piece_, count);
+      sent_of_piece_ += count;
+      if (sent_of_piece_ < piece.size()) break;
+      ++piece_;
+      sent_of_piece_ = 0;
+    }
     StartWrite(&chunk_);
   }
 
+  const std::vector<SharedBytes::Piece>& pieces() const { return map_->bytes.pieces(); }
+
   void OnWriteDone(bool ok) override {
-    if (!ok || sent_ == map_->bytes.size()) return Finish(grpc::Status::OK);
+    if (!ok || piece_ == pieces().size()) return Finish(grpc::Status::OK);
     write_chunk();
   }
 
@@ -54,7 +67,8 @@ class MapStreamCall final : public grpc::ServerWriteReactor<v1::MapChunk> {
   const OpenStreams::Place place_;
   const CancelToken cancel_;
   std::shared_ptr<const MapBytes> map_;
-  std::size_t sent_ = 0;
+  std::size_t piece_ = 0;  ///< the first that is not sent to its end
+  std::size_t sent_of_piece_ = 0;
   v1::MapChunk chunk_;
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/atomic_file.hpp"
 #include "core/input_file.hpp"
@@ -45,9 +46,12 @@ std::optional<Snapshot> read_snapshot(const fs::path& path) {
 void write_snapshot(const fs::path& path, const MapBytes& map) {
   std::string comments = std::string(kVersionComment) + std::to_string(map.version) + '\n';
   if (map.hazards) comments += hazards_comment(*map.hazards);
-  std::string bytes = map.bytes;
-  bytes.insert(bytes.find('\n') + 1, comments);
-  write_file_atomically(path, bytes);
+  std::vector<std::string_view> pieces = map.bytes.views();
+  const std::string_view first = pieces.front();
+  const std::size_t line_end = first.find('\n') + 1;
+  pieces.front() = first.substr(line_end);
+  pieces.insert(pieces.begin(), {first.substr(0, line_end), comments});
+  write_file_atomically(path, pieces);
 }
 
 }  // namespace nbvopt

@@ -13,7 +13,7 @@
 
 namespace nbvopt {
 
-/// Safe to share between threads. The map is copied between two scans; the disk keeps nobody
+/// Safe to share between threads. The map is copied between scans; the disk keeps nobody
 /// waiting.
 class SnapshotKeeper {
  public:

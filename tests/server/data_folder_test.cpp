@@ -35,7 +35,8 @@ class DataFolderTest : public ::testing::Test {
     return test::message_of<RequestError>([&] { DataFolder(folder / "data").open(path); });
   }
   std::string refusal_to_write(const std::string& path) const {
-    return test::message_of<RequestError>([&] { DataFolder(folder / "data").write(path, "new"); });
+    return test::message_of<RequestError>(
+        [&] { DataFolder(folder / "data").write(path, SharedBytes("new")); });
   }
 
   test::TemporaryFolder folder;
@@ -45,8 +46,8 @@ TEST_F(DataFolderTest, ReadsAndWritesBelowIt) {
   const DataFolder data(folder / "data");
   EXPECT_TRUE(data.open("maps/a.ot").is_open());
   EXPECT_TRUE(data.open("./maps//a.ot").is_open());
-  data.write("maps/b.ot", "b");
-  data.write("maps/b.ot", "c");
+  data.write("maps/b.ot", SharedBytes("b"));
+  data.write("maps/b.ot", SharedBytes("c"));
   EXPECT_EQ(read_text_file(folder / "data/maps/b.ot"), "c");
 }
 
@@ -70,7 +71,7 @@ TEST_F(DataFolderTest, TellsAFullDiskFromABadRequest) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   grpc::StatusCode code = grpc::StatusCode::OK;
   try {
-    DataFolder(folder / "data").write("maps/a.ot", std::string(1000, 'x'));
+    DataFolder(folder / "data").write("maps/a.ot", SharedBytes(std::string(1000, 'x')));
   } catch (const RequestError& error) {
     code = error.code();
   }
@@ -102,8 +103,9 @@ TEST_F(DataFolderTest, SaysWhatIsWrongWithoutTellingWhereItIs) {
 TEST_F(DataFolderTest, KeepsTheSnapshot) {
   const std::string kept = folder.write("data/snapshot.ot", "kept");
   const DataFolder data(folder / "data", {kept});
-  EXPECT_THAT(test::message_of<RequestError>([&] { data.write("snapshot.ot", "new"); }),
-              HasSubstr("own file"));
+  EXPECT_THAT(
+      test::message_of<RequestError>([&] { data.write("snapshot.ot", SharedBytes("new")); }),
+      HasSubstr("own file"));
   EXPECT_EQ(read_text_file(kept), "kept");
   EXPECT_TRUE(data.open("snapshot.ot").is_open());
 }

@@ -30,11 +30,15 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
     insert_scan(expected, test::small_scan(), test::scan_pose(i), store.robot().sensor);
     EXPECT_EQ(insertion.version, static_cast<std::uint64_t>(i + 2));
     EXPECT_EQ(store.published()->map_version(), insertion.version);
+    if (i % 3 == 0) {
+      EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(),
+                map_file_bytes(expected, MapFormat::uncertainty_ot));
+    }
   }
   const auto bytes = store.bytes(MapFormat::uncertainty_ot);
   EXPECT_EQ(bytes->version, 11U);
   EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot), bytes);  // shared while somebody holds it
-  EXPECT_EQ(bytes->bytes, map_file_bytes(expected, MapFormat::uncertainty_ot));
+  EXPECT_EQ(bytes->bytes.joined(), map_file_bytes(expected, MapFormat::uncertainty_ot));
 
   const auto grid = VoxelGrid::whole(expected);
   const ViewPlanner fresh(grid, store.robot());
@@ -65,11 +69,11 @@ TEST(MapStore, RefusesScansThatStretchTheMapTooFar) {
   MapStore store = make_store(limits);
   Transform far = test::scan_pose(0);
   far.translation().x() += 20.0;
-  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes.joined();
   EXPECT_THAT(test::message_of<LimitError>([&] { store.insert(test::small_scan(), far); }),
               HasSubstr("max_map_extent_m"));
   EXPECT_EQ(store.published()->map_version(), 1U);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(), before);
   store.insert(test::small_scan(), test::scan_pose(0));  // the refused one did not count
 }
 
@@ -118,11 +122,11 @@ TEST(MapStore, RefusesAScanThatTouchesTooMuch) {
   ServerLimits limits;
   limits.max_map_mib = 8;
   MapStore store(test::small_robot(), limits, UncertaintyMap(0.01), 1);
-  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes.joined();
   EXPECT_THAT(
       test::message_of<LimitError>([&] { store.insert(test::small_scan(), test::scan_pose(0)); }),
       AllOf(HasSubstr("coarser map"), HasSubstr("the limit is 8 MiB (max_map_mib)")));
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(), before);
   EXPECT_EQ(store.published()->map_version(), 1U);
 }
 
@@ -150,6 +154,37 @@ TEST(MapStore, CountsWhatItHolds) {
   store.clear({});
   EXPECT_EQ(store.counts().counts.occupied_voxels, 0U);
   EXPECT_EQ(store.counts().version, 2U);
+}
+
+/// A map of which every other voxel is known, whose copy takes many slices.
+UncertaintyMap scattered_map() {
+  UncertaintyMap map(0.1);
+  constexpr int kVoxels = 100;
+  for (int x = 0; x < kVoxels; ++x) {
+    for (int y = 0; y < 2 * kVoxels; ++y) {
+      for (int z = x % 2; z < kVoxels; z += 2) map.set(test::key_from_origin(x, y, z), test::kFree);
+    }
+  }
+  map.finish_writing();
+  return map;
+}
+
+TEST(MapStoreConcurrency, AScanDoesNotWaitForACopy) {
+  MapStore store(test::small_robot(), {}, scattered_map(), 1);
+  for (int round = 0; round < 4; ++round) {
+    store.replace(scattered_map());
+    std::atomic<bool> has_begun{false};
+    std::atomic<bool> is_copied{false};
+    std::jthread reader([&] {
+      has_begun = true;
+      EXPECT_GT(store.bytes(MapFormat::uncertainty_ot)->bytes.size(), 10'000'000U);
+      is_copied = true;
+    });
+    while (!has_begun) std::this_thread::yield();
+    int scans = 0;
+    for (; !is_copied; ++scans) store.insert(test::small_scan(), test::scan_pose(scans));
+    EXPECT_GE(scans, 3) << round;
+  }
 }
 
 /// For the thread sanitizer, too: plans, copies and counts while scans come in.
@@ -184,7 +219,7 @@ TEST(MapStoreConcurrency, EveryReaderSeesOneVersion) {
   readers.emplace_back([&] {
     do {
       const auto bytes = store.bytes(MapFormat::uncertainty_ot);
-      std::istringstream in(bytes->bytes);
+      std::istringstream in(bytes->bytes.joined());
       EXPECT_GT(read_map(in, "copy").counts().nodes, 0U);
       EXPECT_GE(store.counts().version, bytes->version);
     } while (!done);

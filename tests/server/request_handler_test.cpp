@@ -136,7 +136,7 @@ TEST_F(RequestHandlerTest, InsertsPointsAndDepthImages) {
   EXPECT_EQ(reply.points_off_lattice(), inserted.points_off_lattice);
   EXPECT_EQ(reply.voxels_changed(), inserted.changes.size());
   EXPECT_EQ(reply.information_gained(), inserted.information_gained);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes,
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(),
             map_file_bytes(expected, MapFormat::uncertainty_ot));
 }
 
@@ -146,16 +146,16 @@ TEST_F(RequestHandlerTest, LoadsAndSavesMaps) {
   handler.save_map(save);
   EXPECT_EQ(map_file_bytes(read_map(std::filesystem::path(folder / "saved.ot")),
                            MapFormat::uncertainty_ot),
-            store.bytes(MapFormat::uncertainty_ot)->bytes);
-  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes;
+            store.bytes(MapFormat::uncertainty_ot)->bytes.joined());
+  const std::string before = store.bytes(MapFormat::uncertainty_ot)->bytes.joined();
   handler.clear_map({});
   v1::LoadMapRequest load;
   load.set_path("saved.ot");
   const v1::LoadMapReply loaded = handler.load_map(load);
   EXPECT_EQ(loaded.map_version(), 3U);
   EXPECT_EQ(loaded.resolution_m(), 0.1);
-  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes, before);
-  EXPECT_EQ(handler.get_map({})->bytes, before);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(), before);
+  EXPECT_EQ(handler.get_map({})->bytes.joined(), before);
 }
 
 TEST_F(RequestHandlerTest, KeepsItsMapWhenAFileCannotBeRead) {

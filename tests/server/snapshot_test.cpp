@@ -32,8 +32,9 @@ TEST_F(SnapshotTest, KeepsMapAndVersion) {
   const auto snapshot = read_snapshot(path);
   ASSERT_TRUE(snapshot);
   EXPECT_EQ(snapshot->version, 5U);
-  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
-  EXPECT_EQ(map_file_bytes(read_map(fs::path(path)), MapFormat::uncertainty_ot), map->bytes);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes.joined());
+  EXPECT_EQ(map_file_bytes(read_map(fs::path(path)), MapFormat::uncertainty_ot),
+            map->bytes.joined());
 }
 
 TEST_F(SnapshotTest, KeepsWhatScansTaughtAnExpectedGain) {
@@ -54,7 +55,7 @@ TEST_F(SnapshotTest, KeepsWhatScansTaughtAnExpectedGain) {
   EXPECT_EQ(snapshot->version, 2U);
   EXPECT_EQ(snapshot->hazards, taught);
   EXPECT_EQ(read_hazards(path), taught);
-  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map->bytes.joined());
 }
 
 TEST_F(SnapshotTest, KeepsCountsOfManyDigits) {
@@ -66,7 +67,7 @@ TEST_F(SnapshotTest, KeepsCountsOfManyDigits) {
   write_snapshot(path, map);
   const auto snapshot = read_snapshot(path);
   EXPECT_EQ(snapshot->hazards, map.hazards);
-  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map.bytes);
+  EXPECT_EQ(map_file_bytes(snapshot->map, MapFormat::uncertainty_ot), map.bytes.joined());
 }
 
 TEST_F(SnapshotTest, MayBeAnyMapFileOrNone) {

@@ -40,6 +40,7 @@ struct ScanCounts {
 /// What an insertion did.
 struct InsertResult : ScanCounts {
   std::vector<VoxelChange> changes;        ///< every voxel whose state or u changed, once
+  std::vector<VoxelKey> tiles;             ///< that were written: cubes of 64^3 voxels, least keys
   std::uint64_t rays_cleared = 0;          ///< no-returns, and returns at or beyond D_max, cleared
   std::uint64_t points_ignored = 0;        ///< nearer than D_min, not finite, or off the lattice
   double information_gained = 0.0;         ///< what the map's Eq. 11 grew by
