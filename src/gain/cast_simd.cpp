@@ -25,19 +25,35 @@ class Batch : public HitLanes {
  public:
   HWY_INLINE explicit Batch(const RayWalk& walk) : HitLanes(walk) {}
 
-  /// Starts at range_min, or farther where all before is known to be free.
+  /// Starts where something near may block rays, else at range_min, or farther where all before is
+  /// known to be free.
   HWY_INLINE void start(const RayHits& hits, std::size_t first, FreeWay free) {
     set_up(hits, first);
     code_ = hn::Zero(di);
-    if (walk_->walk_near) walk_near(free.from_origin);
-    start_at(hn::Max(near_, hn::Set(df, free.from_near)));
+    free_from_near_ = free.from_near;
+    if (walk_->walk_near) {
+      const VecF begin = hn::Set(df, free.from_origin);
+      active_ = hn::Lt(begin, near_);
+      is_near_ = any_goes_on();
+      if (is_near_) {
+        place_at(begin);
+        return;
+      }
+    }
+    start_far();
   }
+
+  HWY_INLINE bool is_active() const { return is_near_ || any_goes_on(); }
 
   /// Takes every active ray behind the cube that its code speaks for.
   HWY_INLINE void step() {
     const VecI code = gather_codes();
-    code_ = hn::IfThenElse(hn::RebindMask(di, active_), code, code_);
     const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
+    if (is_near_) {
+      step_near(code, is_free);
+      return;
+    }
+    code_ = hn::IfThenElse(hn::RebindMask(di, active_), code, code_);
     const CubeExit exit = exit_of_cube(leap_radius_of(code));
     active_ = hn::And(hn::And(active_, is_free), hn::Lt(exit.distance, far_));
     leap(active_, exit, entered_axis_);
@@ -50,26 +66,29 @@ class Batch : public HitLanes {
   }
 
  private:
-  /// Marks the rays that an occupied voxel, left before range_min, blocks.
-  HWY_INLINE void walk_near(float free_from_origin) {
-    const VecF begin = hn::Set(df, free_from_origin);
-    active_ = hn::Lt(begin, near_);
-    if (is_active()) place_at(begin);
-    while (is_active()) {
-      const VecI code = gather_codes();
-      const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
-      // Unknown voxels there are passed one by one.
-      const MaskF is_free = hn::RebindMask(df, hn::Lt(code, hn::Set(di, kUnknownCode)));
-      const CubeExit exit = exit_of_cube(hn::IfThenElseZero(is_free, leap_radius_of(code)));
-      const MaskF before_near = hn::And(active_, hn::Lt(exit.distance, near_));
-      blocked_ = hn::Or(blocked_, hn::And(before_near, occupied));
-      active_ = hn::AndNot(occupied, before_near);
-      leap(active_, exit, entered_axis_);
-    }
-    active_ = hn::Not(blocked_);
+  HWY_INLINE bool any_goes_on() const { return !hn::AllFalse(df, active_); }
+
+  /// On the way to range_min: marks the rays that an occupied voxel, left before, blocks.
+  HWY_INLINE void step_near(VecI code, MaskF is_free) {
+    const MaskF occupied = hn::RebindMask(df, hn::Eq(code, hn::Set(di, kOccupiedCode)));
+    // Unknown voxels there are passed one by one.
+    const CubeExit exit = exit_of_cube(hn::IfThenElseZero(is_free, leap_radius_of(code)));
+    const MaskF before_near = hn::And(active_, hn::Lt(exit.distance, near_));
+    blocked_ = hn::Or(blocked_, hn::And(before_near, occupied));
+    active_ = hn::AndNot(occupied, before_near);
+    leap(active_, exit, entered_axis_);
+    if (!any_goes_on()) start_far();
   }
 
-  VecI code_;  ///< of the last voxel
+  HWY_INLINE void start_far() {
+    is_near_ = false;
+    active_ = hn::Not(blocked_);
+    start_at(hn::Max(near_, hn::Set(df, free_from_near_)));
+  }
+
+  float free_from_near_ = 0.0F;
+  bool is_near_ = false;  ///< on the way to range_min
+  VecI code_;             ///< of the last voxel
 };
 
 void walk_rays(const RayWalk& walk, RayHits& hits) {
