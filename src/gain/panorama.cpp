@@ -25,10 +25,12 @@ struct Stations {
   double step = 0.0;  ///< 0: one place only
   int count = 1;
 
-  Stations(double from, double to, double spacing) : first(from) {
+  /// `with_middle`: where there are more than two, the middle is one of them.
+  Stations(double from, double to, double spacing, bool with_middle) : first(from) {
     const double length = to - from;
     if (!(length > 0.0 && spacing > 0.0)) return;
-    const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+    int steps = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+    if (with_middle && steps > 1) steps += steps % 2;
     step = length / steps;
     count = steps + 1;
   }
@@ -41,10 +43,14 @@ struct Stations {
     double next_slope;
   };
   Blend blend(double x) const {
+    constexpr double kRounding = 1e-9;
     if (count == 1) return {0, 0.0, 0.0};
     const double place = std::clamp((x - first) / step, 0.0, count - 1.0);
     const int before = std::min(static_cast<int>(place), count - 2);
-    const double t = place - before;
+    const double between = place - before;
+    // Rounding must not ask for a layer that does not count.
+    const double t =
+        std::abs(between - std::round(between)) < kRounding ? std::round(between) : between;
     return {before, t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / step};
   }
 };
@@ -97,8 +103,9 @@ class Panorama::Impl {
         rays_per_patch_(detail::HitBlock::kSize * options.ray_spacing * options.ray_spacing),
         passage_{hazards, sensor.focal_distance_m, false},
         directions_(directions(box, options)),
-        heights_(box.min[2], box.max[2], layer_spacing_m_),
-        times_(0.0, longest_time_s_, time_spacing_s()),
+        // Searches sample the middle height, which then takes one layer instead of two.
+        heights_(box.min[2], box.max[2], layer_spacing_m_, true),
+        times_(0.0, longest_time_s_, time_spacing_s(), false),
         caster_{.grid = *grid_,
                 .directions = directions_,
                 .R_map_base = mast_.T_map_base(0.0).linear(),
