@@ -20,6 +20,7 @@
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/server.hpp"
+#include "server/service_manager.hpp"
 #include "server/versions.hpp"
 
 namespace nbvopt {
@@ -86,6 +87,12 @@ void allow_all_descriptors() {
   ::setrlimit(RLIMIT_NOFILE, &limit);  // where it is refused, the limit is as it was
 }
 
+/// Waits for a signal to end, and meanwhile tells the service manager that the server answers.
+int wait_alive(const ServiceManager& manager, const Server& server, const EndSignals& signals) {
+  const Heartbeat heartbeat(manager, [&](auto timeout) { return server.answers_itself(timeout); });
+  return signals.wait();
+}
+
 void run_serve(ServeOptions& options) {
   ServerOptions& server_options = options.server;
   check_map(server_options);
@@ -106,9 +113,12 @@ void run_serve(ServeOptions& options) {
   const EndSignals signals;
   set_up_log(options.log_level);
   allow_all_descriptors();
+  const ServiceManager manager = ServiceManager::from_environment();
   Server server(server_options);
   print_answer("listening on " + server.address() + "\n");
-  const int signal = signals.wait();
+  manager.notify("READY=1");
+  const int signal = wait_alive(manager, server, signals);
+  manager.notify("STOPPING=1");
   spdlog::info("event=stopping signal={}", signal);
   server.stop();
 }

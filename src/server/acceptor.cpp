@@ -83,6 +83,10 @@ Acceptor::Acceptor(std::vector<Descriptor> listening, SocketBudget budget, Conne
       wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { run(); }) {}
 
+bool Acceptor::has_turned_within(std::chrono::milliseconds time) const {
+  return Clock::now() - last_turn_.load() < time + kTurn;
+}
+
 void Acceptor::stop() {
   if (!thread_.joinable()) return;
   stopping_ = true;
@@ -95,6 +99,7 @@ void Acceptor::stop() {
 void Acceptor::run() {
   while (!stopping_) {
     wait();
+    last_turn_ = Clock::now();
     forget_closed();
     hand_over_who_spoke();
     accept_all();

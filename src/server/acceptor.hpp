@@ -52,6 +52,9 @@ class Acceptor {
   Acceptor& operator=(const Acceptor&) = delete;
   ~Acceptor() { stop(); }
 
+  /// Whether its thread has looked at its sockets within that time.
+  bool has_turned_within(std::chrono::milliseconds time) const;
+
   /// Accepts no more, and closes what was silent.
   void stop();
 
@@ -91,6 +94,7 @@ class Acceptor {
   std::vector<HandedOver> handed_over_;
   bool is_starved_ = false;  ///< of descriptors or memory
   bool has_room_ = true;
+  std::atomic<Clock::time_point> last_turn_{Clock::now()};
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -4,8 +4,11 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/server_posix.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
+#include <array>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +18,7 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/core/version.hpp"
 #include "nbvopt/map/map_file.hpp"
+#include "nbvopt/v1/planner.grpc.pb.h"
 #include "server/acceptor.hpp"
 #include "server/listening_socket.hpp"
 #include "server/planner_service.hpp"
@@ -187,6 +191,20 @@ Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(op
 Server::~Server() { parts_->stop_listening(std::chrono::system_clock::now()); }
 
 std::string Server::address() const { return parts_->address.text; }
+
+bool Server::answers_itself(std::chrono::milliseconds timeout) const {
+  std::array<int, 2> pair{};
+  if (!parts_->acceptor->has_turned_within(timeout)) return false;
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, pair.data()) != 0) {
+    return false;
+  }
+  grpc::AddInsecureChannelFromFd(parts_->server.get(), pair[0]);
+  const auto stub = v1::Planner::NewStub(grpc::CreateInsecureChannelFromFd("self", pair[1]));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + timeout);
+  v1::GetStatusReply reply;
+  return stub->GetStatus(&context, {}, &reply).ok();
+}
 
 void Server::stop() {
   constexpr std::chrono::seconds kGrace{1};

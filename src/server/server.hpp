@@ -43,6 +43,10 @@ class Server {
   /// Where it listens, the port that the system chose for 0 filled in.
   std::string address() const;
 
+  /// Whether its own call of GetStatus is answered within that time, and clients are let in. The
+  /// call takes a connection of its own, which finds a place when no client does.
+  bool answers_itself(std::chrono::milliseconds timeout) const;
+
   /// Ends or cancels the calls in flight and writes the last snapshot. Throws InputError when that
   /// cannot be written.
   void stop();

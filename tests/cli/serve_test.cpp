@@ -13,6 +13,7 @@
 #include "core/descriptor.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "server/snapshot_file.hpp"
+#include "support/notify_socket.hpp"
 #include "support/paths.hpp"
 #include "support/sanitizers.hpp"
 #include "support/wait_for_search.hpp"
@@ -23,14 +24,15 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class Serve : public ::testing::Test {
  protected:
-  /// What /bin/sh runs to start a server under a limit of its own.
-  std::vector<std::string> under_limit(const std::string& limit,
-                                       const std::vector<std::string>& more) const {
-    std::string command = "ulimit " + limit + "; exec '" + cli_program() + "'";
+  /// What /bin/sh runs to start a server under a limit or in an environment of its own.
+  std::vector<std::string> after(const std::string& first,
+                                 const std::vector<std::string>& more = {}) const {
+    std::string command = first + "; exec '" + cli_program() + "'";
     for (const std::string& word : server.arguments(more)) command += " '" + word + "'";
     return {"-c", command};
   }
@@ -71,7 +73,7 @@ Descriptor silent_client(const std::string& path) {
 }
 
 TEST_F(Serve, ServesWhileAndAfterSilentClientsTakeAllDescriptors) {
-  const Served served(server, under_limit("-n 100", {"--snapshot-every", "0.01"}), "/bin/sh");
+  const Served served(server, after("ulimit -n 100", {"--snapshot-every", "0.01"}), "/bin/sh");
   {
     std::vector<Descriptor> silent;
     for (int i = 0; i < 300; ++i) silent.push_back(silent_client(server.folder / "socket"));
@@ -81,6 +83,23 @@ TEST_F(Serve, ServesWhileAndAfterSilentClientsTakeAllDescriptors) {
     EXPECT_GT(client.status().connections_silent, 200U);
   }
   EXPECT_EQ(PlannerClient(served.address()).status().connections_refused, 0U);
+}
+
+TEST_F(Serve, TellsItsServiceManagerHowItIs) {
+  const std::string name = server.folder / "notify";
+  const NotifySocket heard(name);
+  Served served(server, after("export NOTIFY_SOCKET='" + name + "' WATCHDOG_USEC=200000"),
+                "/bin/sh");
+  EXPECT_EQ(heard.next(), "READY=1");
+  EXPECT_EQ(PlannerClient(served.address()).status().map_version, 1U);  // it is
+  EXPECT_EQ(heard.next(), "WATCHDOG=1");
+  EXPECT_EQ(heard.next(), "WATCHDOG=1");
+  served.process().send(SIGTERM);
+  std::string last = heard.next();
+  while (last == "WATCHDOG=1") last = heard.next();
+  EXPECT_EQ(last, "STOPPING=1");
+  EXPECT_EQ(served.process().wait(), 0);
+  EXPECT_THAT(server.log(), Not(HasSubstr("does_not_answer")));
 }
 
 TEST_F(Serve, CancelsWhatIsInFlightWhenItEnds) {
@@ -173,7 +192,7 @@ TEST_F(Serve, LosesNothingThatItCalledDurableWhenItIsKilled) {
 
 TEST_F(Serve, SaysWhenTheDiskIsFullAndGoesOn) {
   // The largest file that it may write: 4 blocks of 512 bytes.
-  Served served(server, under_limit("-f 4", {"--snapshot-every", "0.01"}), "/bin/sh");
+  Served served(server, after("ulimit -f 4", {"--snapshot-every", "0.01"}), "/bin/sh");
   PlannerClient client(served.address());
   EXPECT_EQ(client.status().durable_version, 1U);
   client.insert_scan(small_scan(), scan_pose(0));
@@ -203,7 +222,7 @@ TEST_F(Serve, RefusesWhatItCannotStartWith) {
                  "certificate");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--listen", "here"}), 2, "HOST:PORT");
   expect_refusal(nbvopt_run({"serve", "--create", "0"}), 3, "positive");
-  expect_refusal(run_process("/bin/sh", under_limit("-n 24", {})), 2, "open files");
+  expect_refusal(run_process("/bin/sh", after("ulimit -n 24")), 2, "open files");
   expect_refusal(nbvopt_run({"serve", "--create", "1e-4"}), 3, "min_resolution_m");
   expect_refusal(nbvopt_run({"serve", "none.ot"}), 3, "none.ot");
   expect_refusal(nbvopt_run({"serve", "--create", "0.1", "--data-dir", "/none"}), 3, "data folder");
