@@ -50,6 +50,11 @@ PlanRequest request_of(const QueryOptions& options, double lowest_m) {
   if (options.time_limit_ms) {
     request.stop.deadline = StopRule::within(*options.time_limit_ms).deadline;
   }
+  if (options.certify) {
+    request.certify.emplace();
+    if (options.gap) request.certify->gap = *options.gap;
+    if (options.time_limit_ms) request.certify->time_limit_ms = *options.time_limit_ms;
+  }
   return request;
 }
 

@@ -118,6 +118,11 @@ Json to_json(const QueryAnswer& answer) {
     json["base_on_arrival"] = base_json(result.T_map_base);
   }
   if (result.hazards) json["hazards"] = Json::parse(hazards_json(*result.hazards));
+  if (result.certificate) {
+    json["upper_bound"] = result.certificate->upper_bound;
+    json["gap"] = result.certificate->gap();
+    json["certify_ms"] = result.certificate->time_ms;
+  }
   if (answer.remote) {
     json["server"] = answer.remote->server;
     json["call_ms"] = answer.remote->call_ms;
@@ -146,6 +151,11 @@ std::string to_text(const QueryAnswer& answer) {
   if (result.hazards) {
     text += line("unknown judged by what %.0f m of rays met, prior included",
                  result.hazards->total().metres);
+  }
+  if (result.certificate) {
+    const Certificate& certificate = *result.certificate;
+    text += line("bound   %.1f: no view in reach gains more, this one %.2f %% of it (%.0f ms)",
+                 certificate.upper_bound, 100.0 * (1.0 - certificate.gap()), certificate.time_ms);
   }
   text += "why     " + to_string(result.status) + ": " + result.message + '\n';
   if (!result.active_bounds.empty()) text += "bounds  " + joined(result.active_bounds) + '\n';

@@ -59,10 +59,17 @@ void add_search(CLI::App& query, QueryOptions& options) {
   add_whole_number(query, "--seed", options.seed, 0, kMaxWhole,
                    "of solvers that draw random numbers");
   add_number(query, "--time-limit-ms", options.time_limit_ms, "MS",
-             "stop computing after this, from the map's load on, with the best so far [no limit]");
+             "stop computing after this, from the map's load on, with the best so far [no limit; a "
+             "certificate takes 10 s at most]");
   add_whole_number(query, "--max-evals", options.max_evaluations, 1, kMaxWhole,
                    "stop after so many evaluations with the best so far [no limit]")
       ->default_str("");
+  CLI::Option* certify = query.add_flag("--certify", options.certify,
+                                        "prove how much a better view in reach could gain at most; "
+                                        "of the gains positive and expected");
+  add_number(query, "--gap", options.gap, "SHARE",
+             "it is enough when a better view could add no more than this share [0.01]")
+      ->needs(certify);
 }
 
 void add_judgement(CLI::App& query, QueryOptions& options) {
@@ -130,6 +137,10 @@ void check(const QueryOptions& options) {
       !(*options.time_limit_ms > 0.0 && *options.time_limit_ms <= kLongestMs)) {
     throw InputError("--time-limit-ms is " + format_number(*options.time_limit_ms) +
                      ", it must be greater than 0 and at most " + format_number(kLongestMs));
+  }
+  if (options.gap && !(*options.gap >= 0.0 && *options.gap < 1.0)) {
+    throw InputError("--gap is " + format_number(*options.gap) +
+                     ", it must be a share from 0 to less than 1, such as 0.01");
   }
   // A search whose answer could not be kept would be in vain.
   for (const std::string& file :

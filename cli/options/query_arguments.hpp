@@ -30,6 +30,8 @@ struct QueryOptions {
   std::int64_t seed = 1;
   std::optional<double> time_limit_ms;
   std::int64_t max_evaluations = StopRule{}.max_evaluations;
+  bool certify = false;
+  std::optional<double> gap;  ///< none: as CertifyOptions says
   bool json = false;
   std::string json_file;
   std::string plot_file;

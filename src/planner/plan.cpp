@@ -13,6 +13,7 @@ inline constexpr auto kEnumNames<PlanStatus> = std::to_array<EnumName<PlanStatus
     {PlanStatus::time_limit, "time_limit"},
     {PlanStatus::no_gain_in_reach, "no_gain_in_reach"},
     {PlanStatus::cancelled, "cancelled"},
+    {PlanStatus::certified, "certified"},
 });
 template <>
 inline constexpr auto kEnumNames<EvaluationKind> = std::to_array<EnumName<EvaluationKind>>({

@@ -7,6 +7,7 @@
 #include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/solver/search.hpp"
+#include "planner/certify.hpp"
 #include "planner/panorama_objective.hpp"
 #include "planner/plan_message.hpp"
 #include "planner/search_trace.hpp"
@@ -70,6 +71,24 @@ PlanStatus plan_status(SolveStatus status) {
       break;
   }
   return PlanStatus::not_run;
+}
+
+void check(const CertifyOptions& options, const SensorOptions& sensor,
+           const std::string& evaluator) {
+  if (!(options.gap >= 0.0 && options.gap < 1.0)) {
+    throw InputError("certify.gap is " + format_number(options.gap) +
+                     ", it must be a share from 0 to less than 1, such as 0.01");
+  }
+  if (!(options.time_limit_ms > 0.0 && options.time_limit_ms <= 1e9)) {
+    throw InputError("certify.time_limit_ms is " + format_number(options.time_limit_ms) +
+                     ", it must be greater than 0 and at most 1e9");
+  }
+  if (evaluator != "exact" || !sensor.gain.is_of_paper()) {
+    throw UsageError(
+        "only the gains positive and expected by the evaluator exact have a bound, and "
+        "not " +
+        to_string(sensor.gain) + " by " + evaluator);
+  }
 }
 
 /// The faces of the box that a point lies on, to rounding; a frozen joint has none to speak of.
@@ -139,9 +158,17 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
                                 sensor_.gain.is_of_paper() ? &surrogate : nullptr, trace.get());
   const auto exact_search = search_without_surrogate(solver, sensor_.gain, result.warnings);
   const Solver& used = exact_search ? *exact_search : solver;
-  const SolveResult solved =
-      used.solve(objective, {request.joints.vector(), request.stop, request.seed});
+  SolveResult solved = used.solve(objective, {request.joints.vector(), request.stop, request.seed});
   result.current = objective.view(request.joints.vector());
+  result.search_time_ms =
+      std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
+  if (request.certify) {
+    const CertifiedView certified =
+        certify(*grid_, sensor_, mast, result.box, objective, JointPosition::from(solved.best),
+                *request.certify, request.stop);
+    solved.best = certified.joints.vector();
+    result.certificate = certified.certificate;
+  }
   choose(mast, objective, solved, result);
 
   result.evaluations = objective.evaluations();
@@ -151,8 +178,6 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   result.seed = request.seed;
   result.map_version = grid_->version();
   if (sensor_.gain.has(GainKind::expected)) result.hazards = hazards_;
-  result.search_time_ms =
-      std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
   return result;
 }
 
@@ -168,6 +193,7 @@ void Planner::make_ready(const PlanRequest& asked) const {
 
 PlanRequest Planner::usable(const PlanRequest& asked, std::vector<std::string>& warnings) const {
   check(asked);
+  if (asked.certify) check(*asked.certify, sensor_, evaluator_->name());
   PlanRequest request = asked;
   request.joints = mast_.clamped(asked.joints, warnings);
   return request;
@@ -196,6 +222,10 @@ void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
   };
   take(JointPosition::from(solved.best));
   result.status = plan_status(solved.status);
+  if (result.certificate && result.certificate->gap() <= request.certify->gap &&
+      result.status != PlanStatus::cancelled) {
+    result.status = PlanStatus::certified;
+  }
   const VoxelState at_camera = state_at_camera(*grid_, mast, request.joints);
   const bool is_worth_a_move = result.view.gain >= least_gain(request);
   if (at_camera == VoxelState::occupied ||

@@ -48,6 +48,7 @@ constexpr auto kStatuses = std::to_array<EnumName<PlanStatus, v1::PlanStatus>>({
     {PlanStatus::time_limit, v1::PLAN_STATUS_TIME_LIMIT},
     {PlanStatus::no_gain_in_reach, v1::PLAN_STATUS_NO_GAIN_IN_REACH},
     {PlanStatus::cancelled, v1::PLAN_STATUS_CANCELLED},
+    {PlanStatus::certified, v1::PLAN_STATUS_CERTIFIED},
 });
 
 constexpr auto kFormats = std::to_array<EnumName<MapFormat, v1::MapFormat>>({
@@ -69,6 +70,39 @@ std::optional<HazardTable> hazards_from(const v1::PlanReply& reply) {
                 {.hits = count.hits(), .metres = count.metres()});
   }
   return hazards;
+}
+
+CertifyOptions from_message(const v1::CertifyOptions& message) {
+  CertifyOptions options;
+  if (message.has_gap()) options.gap = message.gap();
+  if (message.has_time_limit_ms()) options.time_limit_ms = message.time_limit_ms();
+  return options;
+}
+
+Certificate from_message(const v1::Certificate& message) {
+  return {.upper_bound = message.upper_bound(),
+          .gain = message.gain(),
+          .cones = message.cones(),
+          .improvements = message.improvements(),
+          .time_ms = message.time_ms()};
+}
+
+v1::CertifyOptions to_message(const CertifyOptions& options) {
+  v1::CertifyOptions message;
+  message.set_gap(options.gap);
+  message.set_time_limit_ms(options.time_limit_ms);
+  return message;
+}
+
+v1::Certificate to_message(const Certificate& certificate) {
+  v1::Certificate message;
+  message.set_upper_bound(certificate.upper_bound);
+  message.set_gain(certificate.gain);
+  message.set_gap(certificate.gap());
+  message.set_cones(certificate.cones);
+  message.set_improvements(certificate.improvements);
+  message.set_time_ms(certificate.time_ms);
+  return message;
 }
 
 void add_hazards(const HazardTable& hazards, v1::PlanReply& reply) {
@@ -249,6 +283,7 @@ PlanRequest from_message(const v1::PlanRequest& message) {
         {.time_s = needed(pose.has_time_s(), pose.time_s(), field + ".time_s"),
          .T_map_base = from_message(pose.base(), field + ".base")});
   }
+  if (message.has_certify()) request.certify = from_message(message.certify());
   if (message.has_min_gain()) request.min_gain = needed(true, message.min_gain(), "min_gain");
   if (message.has_seed()) request.seed = message.seed();
   if (message.has_max_evaluations()) {
@@ -283,6 +318,7 @@ PlanResult from_message(const v1::PlanReply& reply) {
   result.seed = reply.seed();
   result.map_version = reply.map_version();
   result.hazards = hazards_from(reply);
+  if (reply.has_certificate()) result.certificate = from_message(reply.certificate());
   result.warnings = {reply.warnings().begin(), reply.warnings().end()};
   return result;
 }
@@ -389,6 +425,7 @@ v1::PlanRequest to_message(const PlanRequest& request) {
     timed.set_time_s(pose.time_s);
     *timed.mutable_base()->mutable_pose() = to_message(pose.T_map_base);
   }
+  if (request.certify) *message.mutable_certify() = to_message(*request.certify);
   if (request.stop.max_evaluations != StopRule{}.max_evaluations) {
     message.set_max_evaluations(request.stop.max_evaluations);
   }
@@ -415,6 +452,7 @@ v1::PlanReply to_message(const PlanResult& result) {
   reply.set_seed(result.seed);
   reply.set_map_version(result.map_version);
   if (result.hazards) add_hazards(*result.hazards, reply);
+  if (result.certificate) *reply.mutable_certificate() = to_message(*result.certificate);
   for (const std::string& warning : result.warnings) reply.add_warnings(warning);
   return reply;
 }

@@ -71,7 +71,8 @@ PlanResult plan(const MapPlanner& self, const py::object& base, const py::object
                 const std::vector<std::pair<double, py::object>>& base_path,
                 const std::optional<double>& min_gain,
                 const std::optional<std::int64_t>& max_evaluations,
-                const std::optional<double>& time_limit_ms, std::int64_t seed, bool trace) {
+                const std::optional<double>& time_limit_ms, std::int64_t seed, bool trace,
+                const std::optional<double>& certify) {
   PlanRequest request;
   request.stop.deadline = deadline_from(time_limit_ms);
   request.stop.max_evaluations = evaluations_from(max_evaluations);
@@ -85,6 +86,10 @@ PlanResult plan(const MapPlanner& self, const py::object& base, const py::object
   request.min_gain = min_gain;
   request.seed = seed_from(seed);
   request.record_trace = trace;
+  if (certify) {
+    request.certify = {.gap = *certify};
+    if (time_limit_ms) request.certify->time_limit_ms = *time_limit_ms;
+  }
   const Search search{.solver = solver,
                       .stages = named_stages(global_solver, local_solver, polish_solver),
                       .grid_steps = {non_negative(step_pan_rad, "step_pan_rad"),
@@ -189,7 +194,7 @@ void bind_planner(py::module_& module) {
            py::arg("step_height_m") = 0.0, py::arg("base_twist") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("base_path") = py::tuple(), py::arg("min_gain") = py::none(),
            py::arg("max_evaluations") = py::none(), py::arg("time_limit_ms") = py::none(),
-           py::arg("seed") = 1, py::arg("trace") = false,
+           py::arg("seed") = 1, py::arg("trace") = false, py::arg("certify") = py::none(),
            "A PlanResult: that of `nbvopt query`, to the last bit.\n\n"
            "base: (x, y, yaw) or (x, y, z, yaw). joints: where they are now, (pan, tilt, height).\n"
            "motion_time_s: how long the joints may move; 0 means no limit.\n"
@@ -206,7 +211,9 @@ void bind_planner(py::module_& module) {
            "max_evaluations, time_limit_ms: limits of computing; the answer is then the best so\n"
            "far.\n"
            "seed: of solvers that draw random numbers.\n"
-           "trace: whether the answer lists every evaluation.\n\n"
+           "trace: whether the answer lists every evaluation.\n"
+           "certify: asks for a bound on what any view in reach gains, and this gap is enough:\n"
+           "0.01, say. Without time_limit_ms it takes 10 s at most.\n\n"
            "ValueError: an argument of a wrong shape, not finite or out of range, joints beyond\n"
            "their limits, a solver that is not known or cannot do this.")
       .def("evaluate", &evaluate, py::arg("poses"),

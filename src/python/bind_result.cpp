@@ -86,6 +86,19 @@ void bind_result(py::module_& module) {
       .def_readonly("grid_ms", &PlanResult::grid_ms,
                     "Computing time of reading the voxels in reach from the map, next to nothing "
                     "where they were read before.")
+      .def_property_readonly(
+          "upper_bound",
+          [](const PlanResult& result) {
+            return result.certificate ? std::optional(result.certificate->upper_bound)
+                                      : std::nullopt;
+          },
+          "No view in reach gains more. None where certify was not asked for.")
+      .def_property_readonly(
+          "gap",
+          [](const PlanResult& result) {
+            return result.certificate ? std::optional(result.certificate->gap()) : std::nullopt;
+          },
+          "What a better view could add at most, as a share of upper_bound.")
       .def_readonly("solver", &PlanResult::solver)
       .def_readonly("seed", &PlanResult::seed)
       .def_readonly("warnings", &PlanResult::warnings)

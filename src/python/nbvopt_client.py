@@ -213,6 +213,7 @@ def plan_request(
     seed: Optional[int] = None,
     max_evaluations: Optional[int] = None,
     time_limit_ms: Optional[float] = None,
+    certify: Optional[float] = None,
     request_id: Optional[int] = None,
 ) -> pb.PlanRequest:
     """A robot's state, and how to search for its next view.
@@ -227,6 +228,7 @@ def plan_request(
     min_gain: with less to be had the answer is to stay; when not given 1, or 0
         where the robot's gain is neither positive nor expected.
     max_evaluations, time_limit_ms: limits of computing, after which the best so far is answered.
+    certify: asks for a bound on what any view in reach gains, and this gap is enough: 0.01, say.
     """
     return pb.PlanRequest(
         base=_base(base),
@@ -239,6 +241,7 @@ def plan_request(
         seed=seed,
         max_evaluations=max_evaluations,
         time_limit_ms=time_limit_ms,
+        certify=None if certify is None else pb.CertifyOptions(gap=certify),
         request_id=request_id,
     )
 

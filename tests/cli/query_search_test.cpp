@@ -52,6 +52,20 @@ TEST_F(CommandLine, QueryStaysForTooLittleGainUnlessItsOwnLimitsCutTheSearchShor
   EXPECT_EQ(nbvopt_json(json_query(map_file, limited))["status"], "evaluation_limit");
 }
 
+TEST_F(CommandLine, QueryProvesHowMuchABetterViewCouldAdd) {
+  const json plain = nbvopt_json(json_query(map_file));
+  EXPECT_FALSE(plain.contains("upper_bound"));
+  const json proved = nbvopt_json(json_query(map_file, {"--certify", "--gap", "0.2"}));
+  EXPECT_EQ(proved["status"], "certified");
+  EXPECT_GE(proved["gain"], plain["gain"]);
+  EXPECT_GE(proved["upper_bound"], proved["gain"]);
+  EXPECT_LE(proved["gap"], 0.2);
+  const json at_once =
+      nbvopt_json(json_query(map_file, {"--certify", "--gap", "0", "--time-limit-ms", "1e-6"}));
+  EXPECT_NE(at_once["status"], "certified");
+  EXPECT_GE(at_once["upper_bound"], proved["gain"]);
+}
+
 TEST_F(CommandLine, QuerySaysWhereAMovingBaseWillBe) {
   const json answer = nbvopt_json(json_query(map_file, {"--base-velocity", "0.2,-0.1,0"}));
   const double time_s = answer["move_time_s"];

@@ -289,6 +289,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"--solver", "grid", "--polish", "nlopt:sbplx"}, 2, "solver names a whole search"},
         Refusal{{"--step-pan", "-1"}, 3, "--step-pan"},
         Refusal{{"--time-limit-ms", "1e18"}, 3, "--time-limit-ms"},
+        Refusal{{"--certify", "--gap", "1"}, 3, "--gap is 1, it must be a share from 0"},
+        Refusal{{"--gap", "0.1"}, 2, "--certify"},
+        Refusal{{"--certify", "--evaluator", "paper-code"}, 2, "have a bound"},
         Refusal{{"another.ot"}, 2, "another.ot"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -61,6 +61,8 @@ TEST(Messages, KeepAnAnswer) {
   result.box = {.min = {0, 1, 2}, .max = {3, 4, 5}};
   result.active_bounds = {"tilt_min"};
   result.hazards = HazardTable::uniform(0.25);
+  result.certificate = {
+      .upper_bound = 20.0, .gain = 19.0, .cones = 7, .improvements = 1, .time_ms = 2.0};
   result.evaluations = 12;
   result.surrogate_evaluations = 34;
   result.search_time_ms = 5.5;
@@ -81,6 +83,7 @@ TEST(Messages, KeepAnAnswer) {
   EXPECT_EQ(same.box.max, result.box.max);
   EXPECT_EQ(same.active_bounds, result.active_bounds);
   EXPECT_EQ(same.hazards, result.hazards);
+  EXPECT_EQ(same.certificate, result.certificate);
   EXPECT_EQ(same.evaluations, result.evaluations);
   EXPECT_EQ(same.surrogate_evaluations, result.surrogate_evaluations);
   EXPECT_EQ(same.search_time_ms, result.search_time_ms);

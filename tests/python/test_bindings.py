@@ -418,6 +418,13 @@ class SurrogateTest(BindingsTest):
                 self.assertFalse(np.array_equal(gains, fine))
                 np.testing.assert_allclose(gains, fine, atol=0.1 * fine.max())
 
+    def test_certifies(self):
+        self.assertIsNone(self.plan().upper_bound)
+        answer = self.plan(certify=0.3)
+        self.assertEqual(answer.status, "certified")
+        self.assertGreaterEqual(answer.upper_bound, answer.gain)
+        self.assertLessEqual(answer.gap, 0.3)
+
     def test_refuses_what_it_cannot_do(self):
         for message, options in (
             (".*ray_spacing.*", {"ray_spacing": 0.0}),

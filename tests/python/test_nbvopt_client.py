@@ -217,6 +217,11 @@ class PlanTest(ClientTest):
         self.assertEqual(plan(max_evaluations=3).status, pb.PLAN_STATUS_EVALUATION_LIMIT)
         slow = plan(search="random", time_limit_ms=1e-3)
         self.assertEqual(slow.status, pb.PLAN_STATUS_TIME_LIMIT)
+        certified = plan(certify=0.3)
+        self.assertEqual(certified.status, pb.PLAN_STATUS_CERTIFIED)
+        self.assertLessEqual(certified.certificate.gap, 0.3)
+        self.assertGreaterEqual(certified.certificate.upper_bound, certified.view.gain)
+        self.assertFalse(plan().HasField("certificate"))
         self.assertEqual(plan(request_id=99).request_id, 99)
         self.assertFalse(plan().HasField("request_id"))
 

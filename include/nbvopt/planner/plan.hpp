@@ -21,6 +21,27 @@ struct TimedPose {
   Transform T_map_base = Transform::Identity();
 };
 
+/// Asks for a bound on what any view in reach gains.
+struct CertifyOptions {
+  double gap = 0.01;              ///< it is enough once Certificate::gap() is no larger
+  double time_limit_ms = 10'000;  ///< after the search; the request's stop rule holds as well
+  bool operator==(const CertifyOptions&) const = default;
+};
+
+/// A bound on what any view in reach gains, and what it took. It holds whenever it was stopped.
+struct Certificate {
+  double upper_bound = std::numeric_limits<double>::quiet_NaN();
+  /// Of the best view known: the answer's, unless that is to stay for want of gain.
+  double gain = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t cones = 0;  ///< bundles of rays that were followed through the map
+  int improvements = 0;    ///< how often it found a better view than those before
+  double time_ms = std::numeric_limits<double>::quiet_NaN();
+
+  /// What a better view could add at most, as a share of the bound, in [0, 1].
+  double gap() const { return upper_bound > 0.0 ? 1.0 - gain / upper_bound : 0.0; }
+  bool operator==(const Certificate&) const = default;
+};
+
 /// One question. Born with NaN where there is no sensible default.
 struct PlanRequest {
   Transform T_map_base = Transform::Identity();  ///< where the base is now
@@ -38,6 +59,7 @@ struct PlanRequest {
   std::uint64_t seed = 1;
   bool record_trace = false;                 ///< whether the answer lists every evaluation
   std::optional<PanoramaOptions> surrogate;  ///< none: planning_panorama()
+  std::optional<CertifyOptions> certify;     ///< none: no bound is computed
 };
 
 enum class PlanStatus {
@@ -48,6 +70,7 @@ enum class PlanStatus {
   time_limit,
   no_gain_in_reach,
   cancelled,
+  certified,  ///< the gap that was asked for is met
 };
 std::string to_string(PlanStatus status);
 
@@ -91,6 +114,7 @@ struct PlanResult {
   /// What an expected gain took for likely of the unknown, and how much it was learnt from; none
   /// where the gain is not.
   std::optional<HazardTable> hazards;
+  std::optional<Certificate> certificate;  ///< where the request asks for it
   std::vector<std::string> warnings;
   std::vector<TracePoint> trace;  ///< every evaluation in order, where the request asks for it
 };

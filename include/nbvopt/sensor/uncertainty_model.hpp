@@ -55,8 +55,8 @@ class UncertaintyModel {
   double focal_distance_m_;
   double half_fov_horizontal_rad_;
   double half_fov_vertical_rad_;
-  double distance_weight_;
-  double angle_weight_;
+  double distance_weight_ = 0.0;
+  double angle_weight_ = 0.0;
   double normal_weight_;
 };
 

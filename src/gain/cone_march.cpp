@@ -1,0 +1,371 @@
+#include "gain/cone_march.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "nbvopt/sensor/uncertainty_model.hpp"
+
+namespace nbvopt::detail {
+namespace {
+
+constexpr int kWindow = ConeGrid::kWindow;
+
+/// Casters walk in single precision, and so may be in a voxel that the ray just misses.
+constexpr double kRounding = 1e-3;  // voxels
+
+/// Cones whose rays' values differ by less are not looked at any closer.
+constexpr double kSettled = 2e-3;
+
+constexpr std::uint64_t kRow = 0xFF;
+constexpr std::uint64_t kColumn = 0x0101010101010101;
+
+/// Bits of the columns first to last of each row.
+std::uint64_t columns(int first, int last) {
+  first = std::max(first, 0);
+  last = std::min(last, kWindow - 1);
+  if (first > last) return 0;
+  return ((kRow >> (kWindow - 1 - (last - first))) << first) * kColumn;
+}
+
+/// Bits of the rows first to last.
+std::uint64_t rows(int first, int last) {
+  first = std::max(first, 0);
+  last = std::min(last, kWindow - 1);
+  if (first > last) return 0;
+  return (~std::uint64_t{0} >> (8 * (kWindow - 1 - (last - first)))) << (8 * first);
+}
+
+std::uint64_t next_column(std::uint64_t window) { return (window << 1) & ~kColumn; }
+std::uint64_t previous_column(std::uint64_t window) { return (window >> 1) & ~(kColumn << 7); }
+
+/// The window seen from a place that is so many columns and rows further on.
+std::uint64_t moved(std::uint64_t window, int by_columns, int by_rows) {
+  if (std::abs(by_columns) >= kWindow || std::abs(by_rows) >= kWindow) return 0;
+  for (; by_columns > 0; --by_columns) window = previous_column(window);
+  for (; by_columns < 0; ++by_columns) window = next_column(window);
+  return by_rows >= 0 ? window >> (8 * by_rows) : window << (-8 * by_rows);
+}
+
+int voxel_of(double place) { return static_cast<int>(std::floor(place)); }
+
+using Span = ConeMarch::Span;
+
+/// Where rays are along an axis once they have gone so far along the main one.
+Span places_at(double origin_min, double origin_max, double slope_min, double slope_max,
+               Span depth) {
+  return {origin_min + slope_min * (slope_min < 0.0 ? depth.max : depth.min) - kRounding,
+          origin_max + slope_max * (slope_max > 0.0 ? depth.max : depth.min) + kRounding};
+}
+
+/// How far along the main axis rays cross a plane of another axis, within `depth`.
+Span depths_at_plane(double plane, double origin_min, double origin_max, double slope_min,
+                     double slope_max, Span depth) {
+  const bool up = slope_max > 0.0 && plane >= origin_min - kRounding;
+  const bool down = slope_min < 0.0 && plane <= origin_max + kRounding;
+  if (up == down) return depth;  // through the box of origins: anywhere
+  const double nearest = up ? plane - origin_max : origin_min - plane;
+  const double farthest = up ? plane - origin_min : origin_max - plane;
+  const double steepest = up ? slope_max : -slope_min;
+  const double flattest = up ? slope_min : -slope_max;
+  Span crossed = depth;
+  crossed.min = std::max(depth.min, (nearest - kRounding) / steepest);
+  if (flattest > 0.0) crossed.max = std::min(depth.max, (farthest + kRounding) / flattest);
+  return crossed.min <= crossed.max ? crossed : depth;
+}
+
+}  // namespace
+
+/// What a cone touches between two planes of the grid across its main axis.
+struct ConeMarch::Layer {
+  int k = 0;
+  Span depth;                             ///< of any point of it
+  Span depth_before;                      ///< of the plane by which rays come in
+  int row_first = 0, row_last = 0;        ///< voxels along the row axis
+  int column_first = 0, column_last = 0;  ///< along the column axis
+
+  bool fits() const {
+    return row_last - row_first < kWindow && column_last - column_first < kWindow;
+  }
+  std::uint64_t all() const {
+    return columns(0, row_last - row_first) & rows(0, column_last - column_first);
+  }
+};
+
+ConeMarch::ConeMarch(const ConeGrid& grid, const DepthCamera& camera, double resolution_m,
+                     bool carries_uncertainty)
+    : grid_(grid),
+      resolution_m_(resolution_m),
+      near_blocking_(camera.options().near_blocking),
+      sees_through_unknown_(camera.options().gain.has(GainKind::expected)) {
+  const CameraRays& rays = camera.rays();
+  const auto [nearest, farthest] =
+      std::minmax_element(rays.range_min_m.begin(), rays.range_min_m.end());
+  near_min_ = *nearest / resolution_m - kRounding;
+  near_max_ = *farthest / resolution_m + kRounding;
+  const auto [shortest, longest] =
+      std::minmax_element(rays.range_max_m.begin(), rays.range_max_m.end());
+  far_min_ = *shortest / resolution_m - kRounding;
+  far_ = *longest / resolution_m + kRounding;
+  const UncertaintyModel model(camera.options());
+  focal_ = model.focal_distance_m() / resolution_m;
+  weight_ = model.distance_weight();
+  unknown_value_ = kUnknownUncertainty - model.normal_weight() * kUnseenNormalUncertainty;
+  none_stored_ = carries_uncertainty ? kUnknownUncertainty
+                                     : static_cast<float>(camera.options().occupied_uncertainty);
+}
+
+double ConeMarch::least_distance_part(double from, double to) const {
+  const double nearest = std::clamp(focal_, from, to);
+  return weight_ * UncertaintyModel::focal_uncertainty(std::abs(nearest - focal_) * resolution_m_);
+}
+
+double ConeMarch::largest_distance_part(double from, double to) const {
+  const double farthest = std::max(std::abs(from - focal_), std::abs(to - focal_));
+  return weight_ * UncertaintyModel::focal_uncertainty(farthest * resolution_m_);
+}
+
+ConeMarch::Layer ConeMarch::layer_at(const Cone& cone, int k) const {
+  Layer layer;
+  layer.k = k;
+  layer.depth = {std::max(0.0, k - cone.origin_max[0]), k + 1 - cone.origin_min[0]};
+  layer.depth_before = {layer.depth.min, std::max(0.0, k - cone.origin_min[0])};
+  const Span row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
+                             cone.row_slope_max, layer.depth);
+  const Span column = places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
+                                cone.column_slope_max, layer.depth);
+  layer.row_first = voxel_of(row.min);
+  layer.row_last = voxel_of(row.max);
+  layer.column_first = voxel_of(column.min);
+  layer.column_last = voxel_of(column.max);
+  return layer;
+}
+
+int ConeMarch::free_layers(const Cone& cone, const Layer& layer) const {
+  std::array<int, 3> middle{};
+  middle[cone.across] = cone.goes_down ? grid_.size(cone.across) - 1 - layer.k : layer.k;
+  const int row = (layer.row_first + layer.row_last) / 2;
+  const int column = (layer.column_first + layer.column_last) / 2;
+  middle[ConeGrid::row_axis(cone.across)] = row;
+  middle[ConeGrid::column_axis(cone.across)] = column;
+  const std::uint8_t code = grid_.code(middle);
+  if (!is_free_code(code)) return 0;
+  // A cube may end in voxels beside the unknown, in which the expected gain sees surfaces.
+  const int radius = leap_radius(code) - (sees_through_unknown_ ? 1 : 0);
+  const auto reaches = [&](const Layer& at) {
+    return std::max(
+        {row - at.row_first, at.row_last - row, column - at.column_first, at.column_last - column});
+  };
+  if (reaches(layer) > radius) return 0;
+  // What the cone touches moves by at most a voxel a layer, and a little where it is steep.
+  for (int ahead = radius; ahead > 0;) {
+    const int beyond = reaches(layer_at(cone, layer.k + ahead)) - radius;
+    if (beyond <= 0) return ahead + 1;
+    ahead -= beyond;
+  }
+  return 1;
+}
+
+void ConeMarch::take_hits(const Cone& cone, const Layer& layer, std::uint64_t hits,
+                          std::uint64_t in_front, Span& values) const {
+  for (; hits != 0; hits &= hits - 1) {
+    const int bit = std::countr_zero(hits);
+    const std::array<int, 3> place = place_of(cone, layer, bit);
+    const int row = place[ConeGrid::row_axis(cone.across)];
+    const int column = place[ConeGrid::column_axis(cone.across)];
+    const bool is_occupied = grid_.is_occupied(place);
+    const double u_old =
+        is_occupied ? double{grid_.uncertainty_of_occupied(place, none_stored_)} : unknown_value_;
+    if (u_old <= values.max && values.min < values.max - kSettled) continue;
+    const auto take = [&](Span depth) {
+      const double from = std::max(depth.min * cone.stretch_min, near_min_);
+      const double to = std::max(depth.max * cone.stretch_max, near_max_);
+      if (from > far_) return;
+      values.max = std::max(values.max, u_old - least_distance_part(from, to));
+      // Where it is too far, a ray may hit nothing.
+      const double least =
+          to > far_min_ ? ConeView::kNothing : u_old - largest_distance_part(from, to);
+      values.min = std::min(values.min, least);
+    };
+    // Rays may begin inside, or meet a surface that the map does not show, anywhere inside.
+    if (layer.depth.min * cone.stretch_min <= near_max_ ||
+        (sees_through_unknown_ && !is_occupied)) {
+      take(layer.depth);
+      continue;
+    }
+    if ((in_front >> bit & 1) != 0) take(layer.depth_before);
+    // By which sides rays come in from beside it.
+    const auto take_side = [&](double plane, int axis, double slope_min, double slope_max) {
+      take(depths_at_plane(plane, cone.origin_min[axis], cone.origin_max[axis], slope_min,
+                           slope_max, layer.depth));
+    };
+    if (cone.row_slope_max > 0.0 && row > layer.row_first) {
+      take_side(row, 1, cone.row_slope_min, cone.row_slope_max);
+    }
+    if (cone.row_slope_min < 0.0 && row < layer.row_last) {
+      take_side(row + 1, 1, cone.row_slope_min, cone.row_slope_max);
+    }
+    if (cone.column_slope_max > 0.0 && column > layer.column_first) {
+      take_side(column, 2, cone.column_slope_min, cone.column_slope_max);
+    }
+    if (cone.column_slope_min < 0.0 && column < layer.column_last) {
+      take_side(column + 1, 2, cone.column_slope_min, cone.column_slope_max);
+    }
+  }
+}
+
+std::array<int, 3> ConeMarch::place_of(const Cone& cone, const Layer& layer, int bit) const {
+  std::array<int, 3> place{};
+  place[cone.across] = cone.goes_down ? grid_.size(cone.across) - 1 - layer.k : layer.k;
+  place[ConeGrid::row_axis(cone.across)] = layer.row_first + bit % kWindow;
+  place[ConeGrid::column_axis(cone.across)] = layer.column_first + bit / kWindow;
+  return place;
+}
+
+std::uint64_t ConeMarch::occupied_of(const Cone& cone, const Layer& layer,
+                                     std::uint64_t voxels) const {
+  std::uint64_t occupied = 0;
+  for (; voxels != 0; voxels &= voxels - 1) {
+    if (grid_.is_occupied(place_of(cone, layer, std::countr_zero(voxels)))) {
+      occupied |= voxels & -voxels;
+    }
+  }
+  return occupied;
+}
+
+std::uint64_t ConeMarch::frontiers_of(const Cone& cone, const Layer& layer,
+                                      std::uint64_t voxels) const {
+  std::uint64_t frontiers = 0;
+  for (; voxels != 0; voxels &= voxels - 1) {
+    if ((grid_.code(place_of(cone, layer, std::countr_zero(voxels))) & kFrontierBit) != 0) {
+      frontiers |= voxels & -voxels;
+    }
+  }
+  return frontiers;
+}
+
+ConeView ConeMarch::operator()(const Cone& cone) const {
+  ConeView view;
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Span values{kInf, ConeView::kNothing};  // of the hits so far
+  bool was_cut_short = false;
+  bool stopped_all = false;
+  const int first = voxel_of(cone.origin_min[0] - kRounding);
+  int k = std::max(first, voxel_of(cone.origin_min[0] + cone.clear / cone.stretch_max));
+  bool is_clear = true;  // nothing was hit, and no ray was stopped
+  bool is_full = true;   // all that the cone touches is reached
+  const int last_origin = voxel_of(cone.origin_max[0] + kRounding);
+  std::uint64_t reached = 0;  // of the layer before, which it counts from `last`
+  Layer last;
+  for (;;) {
+    const Layer layer = layer_at(cone, k);
+    const double nearest = layer.depth.min * cone.stretch_min;
+    if (nearest > far_) break;
+    // Whatever comes behind, it cannot bring more.
+    const double most_behind =
+        std::max(double{kUnknownUncertainty}, unknown_value_) -
+        least_distance_part(std::max(nearest, near_min_), std::max(far_, nearest));
+    if (values.max >= most_behind || !layer.fits()) {
+      values.max = std::max(values.max, most_behind);
+      was_cut_short = true;
+      is_clear = false;
+      break;
+    }
+    if (is_full) {
+      const int free = free_layers(cone, layer);
+      if (free > 0) {
+        k += free;
+        if (is_clear) view.clear = (k - cone.origin_max[0]) * cone.stretch_min;
+        continue;
+      }
+    }
+    const std::uint64_t all = layer.all();
+    const std::uint64_t free =
+        all & grid_.free_window(cone.across, cone.goes_down ? grid_.size(cone.across) - 1 - k : k,
+                                layer.row_first, layer.column_first,
+                                layer.column_last - layer.column_first + 1);
+    const bool is_near = nearest <= near_max_;
+    // What rays pass through beyond the near field, and what they pass through here.
+    const std::uint64_t open =
+        sees_through_unknown_ ? all & ~occupied_of(cone, layer, all & ~free) : free;
+    const std::uint64_t passable = is_near && near_blocking_
+                                       ? all & ~occupied_of(cone, layer, all & ~free)
+                                   : is_near ? all
+                                             : open;
+
+    // What rays come in to from the layer before, and then beside that.
+    std::uint64_t in_front = all;
+    if (k > last_origin) {  // no ray begins here
+      const Span row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
+                                 cone.row_slope_max, layer.depth_before);
+      const Span column = places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
+                                    cone.column_slope_max, layer.depth_before);
+      in_front &= columns(voxel_of(row.min) - layer.row_first, voxel_of(row.max) - layer.row_first);
+      in_front &= rows(voxel_of(column.min) - layer.column_first,
+                       voxel_of(column.max) - layer.column_first);
+      if (!is_full) {
+        in_front &= moved(reached, layer.row_first - last.row_first,
+                          layer.column_first - last.column_first);
+      }
+    }
+    // Rays cross a plane away from where they began.
+    const auto from = [](double origin, int first_voxel) {
+      return static_cast<int>(std::ceil(origin - kRounding)) - first_voxel;
+    };
+    const auto until = [](double origin, int first_voxel) {
+      return voxel_of(origin + kRounding) - 1 - first_voxel;
+    };
+    const std::uint64_t row_up =
+        cone.row_slope_max > 0.0 ? columns(from(cone.origin_min[1], layer.row_first), kWindow) : 0;
+    const std::uint64_t row_down =
+        cone.row_slope_min < 0.0 ? columns(0, until(cone.origin_max[1], layer.row_first)) : 0;
+    const std::uint64_t column_up =
+        cone.column_slope_max > 0.0 ? rows(from(cone.origin_min[2], layer.column_first), kWindow)
+                                    : 0;
+    const std::uint64_t column_down =
+        cone.column_slope_min < 0.0 ? rows(0, until(cone.origin_max[2], layer.column_first)) : 0;
+    std::uint64_t touched = in_front;
+    for (;;) {
+      const std::uint64_t through = touched & passable;
+      const std::uint64_t grown =
+          touched |
+          (all & ((next_column(through) & row_up) | (previous_column(through) & row_down) |
+                  ((through << 8) & column_up) | ((through >> 8) & column_down)));
+      if (grown == touched) break;
+      touched = grown;
+    }
+
+    std::uint64_t hits = touched & ~free;
+    if (sees_through_unknown_) hits |= frontiers_of(cone, layer, touched & free);
+    if (hits != 0 && is_near) was_cut_short = true;  // who passes is not told apart
+    if (hits != 0 && layer.depth.max * cone.stretch_max >= near_min_) {
+      is_clear = false;
+      take_hits(cone, layer, hits, in_front, values);
+    }
+    // Who leaves the layer by its far end beyond the near field was hit by what is not free.
+    const bool ends_near = (k + 1 - cone.origin_max[0]) * cone.stretch_min <= near_max_;
+    reached = touched & (ends_near ? passable : open);
+    if (reached == 0) {
+      is_clear = false;
+      stopped_all = true;
+      break;
+    }
+    is_full = reached == all;
+    is_clear = is_clear && is_full;
+    last = layer;
+    ++k;
+    if (is_clear) view.clear = (k - cone.origin_max[0]) * cone.stretch_min;
+  }
+  view.value = values.max;
+  if (values.max == ConeView::kNothing) {
+    view.clear = ConeView::kEndless;
+    view.is_settled = true;
+  } else {
+    view.is_settled = stopped_all && !was_cut_short && values.max - values.min < kSettled;
+  }
+  view.clear = std::max(view.clear, cone.clear);
+  return view;
+}
+
+}  // namespace nbvopt::detail

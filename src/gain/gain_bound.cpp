@@ -1,0 +1,342 @@
+#include "gain/gain_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gain/angle_part.hpp"
+#include "nbvopt/sensor/uncertainty_model.hpp"
+
+namespace nbvopt::detail {
+namespace {
+
+/// Of cells at level 0.
+constexpr double kCoarsest_rad = 0.08;
+/// How high a slab is for each radian of a cell's width: moving the camera by a slab shifts what is
+/// this far away by a cell, and what rays hit is two to four metres away.
+constexpr double kSlabPerCell_m_rad = 4.0;
+/// A cell is then a fortieth of a ray's spacing.
+constexpr int kDeepestLevel = 7;
+
+/// Of directions, cells: they are kept in single precision.
+constexpr float kCellRounding = 2e-3F;
+/// Of places of the camera, metres.
+constexpr double kPlaceRounding_m = 1e-9;
+
+int cell_of(double place) { return static_cast<int>(std::floor(place)); }
+
+}  // namespace
+
+float BoundBlock::largest() const { return *std::max_element(bounds.begin(), bounds.end()); }
+
+GainBound::GainBound(const VoxelGrid& grid, const SensorOptions& sensor, const MovingMast& mast,
+                     const JointBox& box)
+    : lattice_(grid.lattice()),
+      camera_(sensor),
+      mast_(mast),
+      box_(box),
+      block_bins_([&] {
+        const MastOptions& options = mast.mast().options();
+        const double lever_m = options.sensor_offset_m.norm() +
+                               mast.base_twist().speed_m_s() / std::min(options.tilt_velocity_rad_s,
+                                                                        options.pan_velocity_rad_s);
+        // Turning through a block is to move the camera by no more than a slab.
+        const double bins = kSlabPerCell_m_rad / lever_m;
+        return bins < 1 << 20 ? std::max(1, static_cast<int>(bins)) : 1 << 20;
+      }()),
+      cones_grid_([&] {
+        const auto [low, high] = origins_m(box);
+        const Eigen::Vector3d reach = Eigen::Vector3d::Constant(sensor.longest_range_m());
+        return ConeGrid(grid, lattice_.to_lattice(low - reach), lattice_.to_lattice(high + reach));
+      }()),
+      march_(cones_grid_, camera_, lattice_.resolution_m(), grid.carries_uncertainty()) {
+  const UncertaintyModel uncertainty(sensor);
+  for (const double part : angle_part(uncertainty, camera_.rays())) {
+    angle_part_.push_back(std::nextafter(static_cast<float>(part), 0.0F));
+  }
+  const CameraRays& rays = camera_.rays();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    tangent_x_.push_back(rays.x[i] / rays.z[i]);
+    tangent_y_.push_back(rays.y[i] / rays.z[i]);
+  }
+}
+
+double GainBound::cell_rad(int level) const { return std::ldexp(kCoarsest_rad, -level); }
+
+double GainBound::slab_m(int level) const { return kSlabPerCell_m_rad * cell_rad(level); }
+
+int GainBound::bins(int joint, int level) const {
+  const double width = box_.max[joint] - box_.min[joint];
+  const double bin = joint == 2 ? slab_m(level) : cell_rad(level);
+  return std::max(1, static_cast<int>(std::ceil(width / bin)));
+}
+
+std::vector<BoundBlock> GainBound::cut(int level, const std::array<int, 3>& first,
+                                       const std::array<int, 3>& end) const {
+  std::vector<BoundBlock> blocks;
+  for (int height = first[2]; height < end[2]; ++height) {
+    for (int tilt = first[1]; tilt < end[1]; tilt += block_bins_) {
+      for (int pan = first[0]; pan < end[0]; pan += block_bins_) {
+        BoundBlock block;
+        block.level = level;
+        block.first = {pan, tilt, height};
+        block.pans = std::min(block_bins_, end[0] - pan);
+        block.tilts = std::min(block_bins_, end[1] - tilt);
+        block.bounds.resize(static_cast<std::size_t>(block.pans) *
+                            static_cast<std::size_t>(block.tilts));
+        blocks.push_back(std::move(block));
+      }
+    }
+  }
+  return blocks;
+}
+
+std::vector<BoundBlock> GainBound::roots() const {
+  // A ray brings at most what it brings where it meets the unknown at the focal distance.
+  double most = 0.0;
+  for (const float part : angle_part_) most += kUnknownUncertainty - part;
+  std::vector<BoundBlock> blocks = cut(0, {0, 0, 0}, {bins(0, 0), bins(1, 0), bins(2, 0)});
+  for (BoundBlock& block : blocks) {
+    std::fill(block.bounds.begin(), block.bounds.end(),
+              std::nextafter(static_cast<float>(most), std::numeric_limits<float>::infinity()));
+  }
+  return blocks;
+}
+
+std::vector<BoundBlock> GainBound::children(const BoundBlock& block) const {
+  if (block.level >= kDeepestLevel) return {};
+  const int level = block.level + 1;
+  const std::array<int, 3> counts{block.pans, block.tilts, 1};
+  std::array<int, 3> first{};
+  std::array<int, 3> end{};
+  for (int j = 0; j < 3; ++j) {
+    first[j] = 2 * block.first[j];
+    end[j] = std::min(2 * (block.first[j] + counts[j]), bins(j, level));
+  }
+  std::vector<BoundBlock> blocks = cut(level, first, end);
+  for (BoundBlock& child : blocks) {
+    child.cells = block.cells;
+    for (int t = 0; t < child.tilts; ++t) {
+      const int tilt = (child.first[1] + t) / 2 - block.first[1];
+      for (int p = 0; p < child.pans; ++p) {
+        const int pan = (child.first[0] + p) / 2 - block.first[0];
+        child.bounds[static_cast<std::size_t>(t * child.pans + p)] =
+            block.bounds[static_cast<std::size_t>(tilt * block.pans + pan)];
+      }
+    }
+  }
+  return blocks;
+}
+
+JointBox GainBound::box_of(const BoundBlock& block, int pan, int tilt) const {
+  const double bin = cell_rad(block.level);
+  JointBox box;
+  box.min[0] = box_.min[0] + bin * (block.first[0] + pan);
+  box.max[0] = box_.min[0] + bin * (block.first[0] + pan + 1);
+  box.min[1] = box_.min[1] + bin * (block.first[1] + tilt);
+  box.max[1] = box_.min[1] + bin * (block.first[1] + tilt + 1);
+  box.min[2] = std::min(box_.max[2], box_.min[2] + slab_m(block.level) * block.first[2]);
+  box.max[2] = std::min(box_.max[2], box_.min[2] + slab_m(block.level) * (block.first[2] + 1));
+  return box;
+}
+
+JointBox GainBound::box_of(const BoundBlock& block) const {
+  JointBox box = box_of(block, 0, 0);
+  const JointBox last = box_of(block, block.pans - 1, block.tilts - 1);
+  box.max = last.max.cwiseMin(box_.max).cwiseMax(box.min);
+  return box;
+}
+
+std::pair<double, double> GainBound::arrival_times_s(const JointBox& box) const {
+  const Eigen::Array3d q = mast_.joints().vector().array();
+  const Eigen::Array3d velocity = mast_.mast().velocity().array();
+  const Eigen::Array3d nearest = (box.min.array() - q).max(q - box.max.array()).max(0.0) / velocity;
+  const Eigen::Array3d farthest =
+      (box.min.array() - q).abs().max((box.max.array() - q).abs()) / velocity;
+  return {nearest.maxCoeff(), farthest.maxCoeff()};
+}
+
+std::pair<double, double> GainBound::turns_rad(const JointBox& box) const {
+  const double turn_rad_s = mast_.base_twist().wz_rad_s;
+  const auto [first_s, last_s] = arrival_times_s(box);
+  return std::minmax(turn_rad_s * first_s, turn_rad_s * last_s);
+}
+
+std::pair<Eigen::Vector3d, Eigen::Vector3d> GainBound::origins_m(const JointBox& box) const {
+  const auto [first_s, last_s] = arrival_times_s(box);
+  const Eigen::Vector3d middle = 0.5 * (box.min + box.max);
+  const Transform T_map_base = mast_.T_map_base(0.5 * (first_s + last_s));
+  const Eigen::Vector3d centre =
+      T_map_base * mast_.mast().T_base_sensor(JointPosition::from(middle)).translation();
+  // How far the joints and the base's way take the camera from there, along the mast and across.
+  const Eigen::Vector3d half = 0.5 * (box.max - box.min);
+  const BaseTwist& twist = mast_.base_twist();
+  const double half_s = 0.5 * (last_s - first_s);
+  const double lever_m = mast_.mast().options().sensor_offset_m.norm();
+  const double around_m = twist.speed_m_s() * half_s +
+                          lever_m * (half[0] + half[1] + std::abs(twist.wz_rad_s) * half_s);
+  const Eigen::Vector3d reach = half[2] * T_map_base.linear().col(2).cwiseAbs() +
+                                Eigen::Vector3d::Constant(around_m + kPlaceRounding_m);
+  return {centre - reach, centre + reach};
+}
+
+GainBound::RayRanges GainBound::make_ranges(double tilt_min, double tilt_max,
+                                            double cell_rad) const {
+  constexpr double kHalfPi = 0.5 * std::numbers::pi;
+  RayRanges ranges;
+  for (std::size_t i = 0; i < tangent_x_.size(); ++i) {
+    // A ray turns with the tilt in a plane of constant x: by an angle from the horizon.
+    const double x = tangent_x_[i];
+    const double ahead = std::hypot(1.0, tangent_y_[i]);
+    const double low = tilt_min - std::atan(tangent_y_[i]);
+    const double high = tilt_max - std::atan(tangent_y_[i]);
+    const auto elevation = [&](double turn) {
+      return std::atan2(ahead * std::sin(turn), std::hypot(x, ahead * std::cos(turn)));
+    };
+    const auto azimuth = [&](double turn) { return std::atan2(-x, ahead * std::cos(turn)); };
+    double elevation_min = std::min(elevation(low), elevation(high));
+    double elevation_max = std::max(elevation(low), elevation(high));
+    double azimuth_min = std::min(azimuth(low), azimuth(high));
+    double azimuth_max = std::max(azimuth(low), azimuth(high));
+    if (low < 0.0 && high > 0.0) {  // |azimuth| is least at the horizon
+      azimuth_min = std::min(azimuth_min, azimuth(0.0));
+      azimuth_max = std::max(azimuth_max, azimuth(0.0));
+    }
+    constexpr double kBesidePole_rad = 1e-3;
+    if (high > kHalfPi - kBesidePole_rad || low < -kHalfPi + kBesidePole_rad) {
+      if (high > kHalfPi - kBesidePole_rad) elevation_max = elevation(kHalfPi);
+      if (low < -kHalfPi + kBesidePole_rad) elevation_min = elevation(-kHalfPi);
+      azimuth_min = -std::numbers::pi;
+      azimuth_max = std::numbers::pi;
+    }
+    ranges.azimuth_min.push_back(static_cast<float>(azimuth_min / cell_rad) - kCellRounding);
+    ranges.azimuth_max.push_back(static_cast<float>(azimuth_max / cell_rad) + kCellRounding);
+    ranges.elevation_min.push_back(static_cast<float>(elevation_min / cell_rad) - kCellRounding);
+    ranges.elevation_max.push_back(static_cast<float>(elevation_max / cell_rad) + kCellRounding);
+  }
+  const auto least = [](const std::vector<float>& v) {
+    return *std::min_element(v.begin(), v.end());
+  };
+  const auto largest = [](const std::vector<float>& v) {
+    return *std::max_element(v.begin(), v.end());
+  };
+  ranges.least_azimuth = least(ranges.azimuth_min);
+  ranges.largest_azimuth = largest(ranges.azimuth_max);
+  ranges.least_elevation = least(ranges.elevation_min);
+  ranges.largest_elevation = largest(ranges.elevation_max);
+  return ranges;
+}
+
+const GainBound::RayRanges& GainBound::ranges_of(int level, int tilt) {
+  if (level != ranges_level_) ranges_.clear();
+  ranges_level_ = level;
+  const auto found = ranges_.find(tilt);
+  if (found != ranges_.end()) return found->second;
+  const double cell = cell_rad(level);
+  const double from_rad = box_.min[1] + cell * tilt;
+  const double to_rad = std::clamp(from_rad + cell, from_rad, std::max(from_rad, box_.max[1]));
+  return ranges_.emplace(tilt, make_ranges(from_rad, to_rad, cell)).first->second;
+}
+
+RayWindows GainBound::windows_of(const RayRanges& ranges,
+                                 const std::pair<double, double>& turn_cells,
+                                 const CellBox& cells) const {
+  RayWindows windows;
+  windows.offset.reserve(2 * angle_part_.size());
+  windows.end.reserve(angle_part_.size());
+  windows.angle_part = angle_part_;
+  const auto turn_min = static_cast<float>(turn_cells.first) - kCellRounding;
+  const auto turn_max = static_cast<float>(turn_cells.second) + kCellRounding;
+  for (std::size_t i = 0; i < angle_part_.size(); ++i) {
+    const int left = cell_of(ranges.azimuth_min[i] + turn_min);
+    const int right = cell_of(1.0F + ranges.azimuth_max[i] + turn_max);
+    const int below = cell_of(ranges.elevation_min[i]);
+    const int above = cell_of(ranges.elevation_max[i]);
+    for (int y = below;; y = std::min(y + 2, above - 1)) {
+      for (int x = left;; x = std::min(x + 2, right - 1)) {
+        windows.offset.push_back((y - cells.elevation_min) * cells.wide() + x - cells.azimuth_min);
+        if (x + 2 > right) break;
+      }
+      if (y + 2 > above) break;
+    }
+    windows.end.push_back(static_cast<std::int32_t>(windows.offset.size()));
+  }
+  return windows;
+}
+
+/// The bins of a block that are worth a closer look: by row the first and the last of them.
+struct GainBound::Alive {
+  Alive(const BoundBlock& block, float worth) {
+    for (int t = 0; t < block.tilts; ++t) {
+      const float* row = &block.bounds[static_cast<std::size_t>(t * block.pans)];
+      int begin = 0;
+      int end = block.pans;
+      while (begin < end && row[begin] <= worth) ++begin;
+      while (end > begin && row[end - 1] <= worth) --end;
+      if (begin < end) rows.push_back({t, begin, end});
+    }
+  }
+  struct Row {
+    int tilt, begin, end;
+  };
+  std::vector<Row> rows;
+};
+
+bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
+  const Alive alive(block, worth);
+  if (alive.rows.empty()) return true;
+  const double cell = cell_rad(block.level);
+  const auto [turn_min_rad, turn_max_rad] = turns_rad(box_of(block));
+  const std::pair<double, double> turn_cells{turn_min_rad / cell, turn_max_rad / cell};
+
+  // Bins and cells are counted from the same pan.
+  const auto seen_from = [&](const Alive::Row& row) {
+    const RayRanges& ranges = ranges_of(block.level, block.first[1] + row.tilt);
+    CellBox cells;
+    cells.azimuth_min =
+        block.first[0] + row.begin + cell_of(ranges.least_azimuth + turn_cells.first) - 1;
+    cells.azimuth_max =
+        block.first[0] + row.end + cell_of(ranges.largest_azimuth + turn_cells.second) + 2;
+    cells.elevation_min = cell_of(ranges.least_elevation) - 1;
+    cells.elevation_max = cell_of(ranges.largest_elevation) + 2;
+    return cells;
+  };
+  CellBox all = seen_from(alive.rows.front());
+  for (const Alive::Row& row : alive.rows) {
+    const CellBox seen = seen_from(row);
+    all.azimuth_min = std::min(all.azimuth_min, seen.azimuth_min);
+    all.azimuth_max = std::max(all.azimuth_max, seen.azimuth_max);
+    all.elevation_min = std::min(all.elevation_min, seen.elevation_min);
+    all.elevation_max = std::max(all.elevation_max, seen.elevation_max);
+  }
+  const CellFrame frame{mast_.T_map_base(0.0).linear(), box_.min[0], cell};
+  const auto [low_m, high_m] = origins_m(box_of(block));
+  auto cells =
+      std::make_shared<ConeCells>(frame, all, lattice_.to_lattice(low_m) - cones_grid_.corner(),
+                                  lattice_.to_lattice(high_m) - cones_grid_.corner());
+  for (const Alive::Row& row : alive.rows) {
+    if (!cells->fill(seen_from(row), block.cells.get(), cones_grid_, march_, stop)) return false;
+  }
+  cones_ += cells->cones();
+  block.cells = cells;
+
+  const std::vector<float> windows = cells->windows();
+  // Sums of single precision are off by no more.
+  const float rounding =
+      1.0F + std::numeric_limits<float>::epsilon() * static_cast<float>(angle_part_.size());
+  std::vector<float> sums(static_cast<std::size_t>(block.pans));
+  for (const Alive::Row& row : alive.rows) {
+    if (stop.is_expired() || stop.cancel.is_cancelled()) return false;
+    const RayWindows rays =
+        windows_of(ranges_of(block.level, block.first[1] + row.tilt), turn_cells, all);
+    bound_row(rays, windows.data() + block.first[0], row.begin, row.end, sums.data());
+    float* bounds = &block.bounds[static_cast<std::size_t>(row.tilt * block.pans)];
+    for (int p = row.begin; p < row.end; ++p) {
+      bounds[p] = std::min(bounds[p], sums[static_cast<std::size_t>(p - row.begin)] * rounding);
+    }
+  }
+  return true;
+}
+
+}  // namespace nbvopt::detail

@@ -1,0 +1,108 @@
+// An upper bound on the exact gain of all views from boxes of joint positions.
+//
+// Rays go through the same pixels whatever the joints do, so the angle's part of u_new is a
+// constant of the ray. What else a ray brings is at most the largest u_old - weight * u_d that any
+// ray in a range of directions, from anywhere that the box has the camera, can meet: a maximum over
+// cells of directions (ConeCells), each of which a cone is marched for. The sum over rays bounds
+// the gain per ray, and per voxel too, where each voxel counts once. An expected gain is a mean
+// over hits that a ray may have in the unknown, and so no larger than the best of them.
+//
+// Panning turns directions by a constant, so boxes are bins of pan and tilt as wide as cells, and
+// the bounds of a row of bins are sums of rows of cells that lie side by side.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "gain/bound_row.hpp"
+#include "gain/cone_cells.hpp"
+#include "gain/cone_grid.hpp"
+#include "gain/cone_march.hpp"
+#include "nbvopt/core/stop.hpp"
+#include "nbvopt/mast/moving_mast.hpp"
+#include "nbvopt/sensor/depth_camera.hpp"
+
+namespace nbvopt::detail {
+
+/// Bins of pan and tilt in a slab of heights, and a bound for each bin. Bins are half as wide from
+/// level to level, slabs half as high.
+struct BoundBlock {
+  int level = 0;
+  std::array<int, 3> first{};  ///< by joint, counted from the box's least corner
+  int pans = 0, tilts = 0;     ///< bins
+  /// No view of a bin gains more; bins of pan lie side by side.
+  std::vector<float> bounds;
+  std::shared_ptr<const ConeCells> cells;  ///< of this block, or of its parent before tighten()
+
+  float largest() const;
+};
+
+/// Makes and tightens blocks. Not thread-safe: what rays of a tilt need is kept.
+class GainBound {
+ public:
+  /// The grid must outlive it. The sensor's gain must be positive or expected. Throws InputError
+  /// where the reach of the camera is absurdly large.
+  GainBound(const VoxelGrid& grid, const SensorOptions& sensor, const MovingMast& mast,
+            const JointBox& box);
+
+  /// The blocks of level 0, which together hold the whole box.
+  std::vector<BoundBlock> roots() const;
+
+  /// The blocks of the next level that together hold this one's bins, each with its parent's
+  /// bound; none where joints are told apart no further.
+  std::vector<BoundBlock> children(const BoundBlock& block) const;
+
+  /// Lowers the bounds of those bins that are above `worth`. Returns false where it had to stop,
+  /// the bounds then being valid, if not as low.
+  bool tighten(BoundBlock& block, float worth, const StopRule& stop);
+
+  /// The joint positions of a bin, which may stick out of the box.
+  JointBox box_of(const BoundBlock& block, int pan, int tilt) const;
+
+  std::int64_t cones() const { return cones_; }
+
+ private:
+  /// Where the rays of a range of tilts go as seen from their pan, in cells.
+  struct RayRanges {
+    std::vector<float> azimuth_min, azimuth_max, elevation_min, elevation_max;
+    float least_azimuth, largest_azimuth, least_elevation, largest_elevation;
+  };
+  struct Alive;
+
+  double cell_rad(int level) const;
+  double slab_m(int level) const;
+  int bins(int joint, int level) const;
+  std::vector<BoundBlock> cut(int level, const std::array<int, 3>& first,
+                              const std::array<int, 3>& end) const;
+  JointBox box_of(const BoundBlock& block) const;
+  const RayRanges& ranges_of(int level, int tilt);
+  RayRanges make_ranges(double tilt_min_rad, double tilt_max_rad, double cell_rad) const;
+  RayWindows windows_of(const RayRanges& ranges, const std::pair<double, double>& turn_cells,
+                        const CellBox& cells) const;
+  /// When the mast can have arrived anywhere in the box.
+  std::pair<double, double> arrival_times_s(const JointBox& box) const;
+  /// By how much the base has turned by then.
+  std::pair<double, double> turns_rad(const JointBox& box) const;
+  /// Where the camera can be.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> origins_m(const JointBox& box) const;
+
+  Lattice lattice_;
+  DepthCamera camera_;
+  MovingMast mast_;
+  JointBox box_;
+  int block_bins_;  ///< along pan and tilt, at most: the camera moves little within them
+  std::vector<float> angle_part_;
+  std::vector<double> tangent_x_, tangent_y_;  ///< of each ray, x / z and y / z
+  ConeGrid cones_grid_;
+  ConeMarch march_;
+  int ranges_level_ = -1;
+  std::unordered_map<int, RayRanges> ranges_;  ///< of the level, by tilt
+  std::int64_t cones_ = 0;
+};
+
+}  // namespace nbvopt::detail
