@@ -100,6 +100,7 @@ void run_serve(ServeOptions& options) {
   options.snapshot_every_s = std::max(options.snapshot_every_s, 1e-3);
   check_positive("--max-compute-ms", server_options.limits.max_compute_ms, " ms");
   check_positive("--max-receive", server_options.limits.max_receive_s, " s");
+  check_positive("--max-send", server_options.limits.max_send_s, " s");
   check_positive("--max-map-extent", server_options.limits.max_map_extent_m, " m");
   check_positive("--min-resolution", server_options.limits.min_resolution_m, " m");
   server_options.snapshot_every =
@@ -157,6 +158,10 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
                    "of all messages that are coming in; calls beyond are refused");
   add_number(serve, "--max-receive", limits.max_receive_s, "SECONDS",
              "until a call's message must be there");
+  add_number(serve, "--max-send", limits.max_send_s, "SECONDS",
+             "until a client must have taken a part of a map, 1 MiB");
+  add_whole_number(serve, "--max-pinned-mib", limits.max_pinned_mib, 1, kMost,
+                   "of older maps that clients still take, when another asks for one");
   add_whole_number(serve, "--max-connections", limits.max_connections, 1, kMost,
                    "of clients; fewer where the system allows few open files");
   add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,

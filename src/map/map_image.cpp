@@ -38,7 +38,17 @@ void for_each_tile(const UncertaintyOcTree& tree, const Enter& enter, const Tile
 }  // namespace
 
 void MapImage::forget(std::span<const VoxelKey> tiles) {
-  for (const VoxelKey& tile : tiles) pieces_.erase(packed(tile));
+  for (const VoxelKey& tile : tiles) {
+    const auto piece = pieces_.find(packed(tile));
+    if (piece == pieces_.end()) continue;
+    bytes_ -= piece->second->capacity();
+    pieces_.erase(piece);
+  }
+}
+
+void MapImage::forget_all() {
+  pieces_.clear();
+  bytes_ = 0;
 }
 
 std::vector<VoxelKey> MapImage::missing(const UncertaintyMap& map) const {
@@ -57,7 +67,10 @@ void MapImage::copy(const UncertaintyMap& map, VoxelKey tile) {
   if (found.node == nullptr || found.depth != kTileDepth) return;
   std::string bytes;
   append_subtree(tree, *found.node, bytes);
-  pieces_[packed(tile)] = make_piece(std::move(bytes));
+  forget({&tile, 1});
+  const SharedBytes::Piece piece = held_.hold(std::move(bytes));
+  bytes_ += piece->capacity();
+  pieces_[packed(tile)] = piece;
 }
 
 SharedBytes MapImage::file(const UncertaintyMap& map) {
@@ -74,16 +87,6 @@ SharedBytes MapImage::file(const UncertaintyMap& map) {
       });
   if (!between.empty()) file.append(std::move(between));
   return file;
-}
-
-SharedBytes::Piece MapImage::make_piece(std::string bytes) const {
-  bytes.shrink_to_fit();
-  const auto piece = new std::string(std::move(bytes));
-  *held_bytes_ += piece->capacity();
-  return {piece, [held_bytes = held_bytes_](const std::string* last) {
-            *held_bytes -= last->capacity();
-            delete last;
-          }};
 }
 
 }  // namespace nbvopt

@@ -1,9 +1,7 @@
 // A map's file, kept in pieces, so that a map of which little has changed is copied in little time.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -15,13 +13,16 @@ namespace nbvopt {
 
 /// Copies of an octree's branches, one a cube of 64 x 64 x 64 voxels (a tile, named by its least
 /// key). Whoever writes the map says where; the copies there are made anew. Reads the map in the
-/// functions that take it only. Not thread-safe, but for what it has given away and held_bytes().
+/// functions that take it only. Not thread-safe, but for what it has given away.
 class MapImage {
  public:
+  /// The copies are counted among those that anybody holds.
+  explicit MapImage(const HeldBytes& held) : held_(held) {}
+
   /// These tiles have changed.
   void forget(std::span<const VoxelKey> tiles);
   /// The whole map has.
-  void forget_all() { pieces_.clear(); }
+  void forget_all();
 
   /// The tiles of which there is no copy.
   std::vector<VoxelKey> missing(const UncertaintyMap& map) const;
@@ -32,16 +33,13 @@ class MapImage {
   /// The bytes of map_file_bytes(), MapFormat::uncertainty_ot. Copies what is missing.
   SharedBytes file(const UncertaintyMap& map);
 
-  /// What the copies take that anybody holds, older ones included.
-  std::uint64_t held_bytes() const { return *held_bytes_; }
+  /// What the copies take that are not forgotten.
+  std::uint64_t bytes() const { return bytes_; }
 
  private:
-  SharedBytes::Piece make_piece(std::string bytes) const;
-
+  const HeldBytes held_;
   std::unordered_map<std::uint64_t, SharedBytes::Piece> pieces_;  ///< by the tile's packed key
-  /// Shared with the pieces, which may outlive this.
-  std::shared_ptr<std::atomic<std::uint64_t>> held_bytes_ =
-      std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::uint64_t bytes_ = 0;                                       ///< of the pieces
 };
 
 }  // namespace nbvopt

@@ -21,6 +21,9 @@ struct ServerLimits {
   /// Of all messages that are coming in, and again of all that wait or are at work.
   std::int64_t max_buffered_mib = 256;
   double max_receive_s = 30.0;  ///< until a call's message must be there
+  double max_send_s = 10.0;     ///< until a client must have taken a part of a map, 1 MiB
+  /// Of copies that clients take of older versions of the map, when another asks for one.
+  std::int64_t max_pinned_mib = 256;
   /// Of clients; fewer where the system allows the process few descriptors.
   std::int64_t max_connections = 256;
 };

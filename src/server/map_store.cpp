@@ -1,5 +1,6 @@
 #include "server/map_store.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 #include <thread>
@@ -36,8 +37,7 @@ void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
 MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_sensor,
                                      const CancelToken& cancel) {
   const std::scoped_lock lock(tree_mutex_);
-  const std::uint64_t used_bytes =
-      map_.memory_bytes() + grid_->memory_bytes() + image_.held_bytes();
+  const std::uint64_t used_bytes = map_.memory_bytes() + grid_->memory_bytes() + held_.bytes();
   check_size(used_bytes);
   Eigen::AlignedBox3d extent_m = extent_m_;
   const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(robot_.sensor.longest_range_m());
@@ -98,7 +98,7 @@ std::shared_ptr<const MapBytes> MapStore::bytes(MapFormat format) const {
   MapBytes made = copy();
   if (format != MapFormat::uncertainty_ot) {
     std::istringstream file(made.bytes.joined());
-    made.bytes = SharedBytes(map_file_bytes(read_map(file, "the map"), format));
+    made.bytes = SharedBytes(held_.hold(map_file_bytes(read_map(file, "the map"), format)));
   }
   bytes = std::make_shared<const MapBytes>(std::move(made));
   last = bytes;
@@ -122,6 +122,11 @@ MapBytes MapStore::copy() const {
   MapBytes made{image_.file(map_), grid_->version(), std::nullopt};
   if (robot_.sensor.gain.has(GainKind::expected)) made.hazards = hazards_;
   return made;
+}
+
+std::uint64_t MapStore::pinned_bytes() const {
+  const std::scoped_lock lock(tree_mutex_);
+  return held_.bytes() - std::min(held_.bytes(), image_.bytes());
 }
 
 VersionedCounts MapStore::counts() const {

@@ -68,6 +68,9 @@ class MapStore {
   /// bit by bit, so that scans wait for milliseconds; what versions have in common is shared.
   std::shared_ptr<const MapBytes> bytes(MapFormat format) const;
 
+  /// What readers hold of copies that the map has left behind, bytes.
+  std::uint64_t pinned_bytes() const;
+
   /// Counts, kept until the map changes.
   VersionedCounts counts() const;
 
@@ -89,6 +92,7 @@ class MapStore {
 
   const Robot robot_;
   const ServerLimits limits_;
+  const HeldBytes held_;  ///< of what bytes() gives away
 
   mutable std::mutex tree_mutex_;  ///< of what follows
   UncertaintyMap map_;
@@ -97,7 +101,7 @@ class MapStore {
   HazardTable hazards_;          ///< learnt from the scans, where the robot's gain is expected
   bool is_grid_behind_ = false;  ///< an insertion failed half way, out of memory, say
   mutable VersionedCounts counts_;
-  mutable MapImage image_;
+  mutable MapImage image_{held_};
 
   mutable std::mutex bytes_mutex_;  ///< of what follows; taken before that of the tree
   mutable std::map<MapFormat, std::weak_ptr<const MapBytes>> bytes_;

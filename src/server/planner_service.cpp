@@ -31,6 +31,7 @@ PlannerService::PlannerService(RequestHandler& handler, const ConnectionLog& con
       connections_(connections),
       streams_(handler.limits().max_streams),
       watch_(milliseconds(handler.limits().max_receive_s)),
+      sending_(milliseconds(handler.limits().max_send_s)),
       memory_(handler.limits().max_buffered_mib),
       planning_(planning_threads, static_cast<std::size_t>(handler.limits().max_waiting)),
       mapping_(1, static_cast<std::size_t>(handler.limits().max_waiting)),
@@ -102,8 +103,9 @@ void PlannerService::add_storage() {
       [this](const auto& request, const CallLimits&) { return handler_.save_map(request); });
   add(Method::get_map, RpcMethod::SERVER_STREAMING,
       new grpc::internal::CallbackServerStreamingHandler<v1::GetMapRequest, v1::MapChunk>(
-          [this](CallbackServerContext*, const v1::GetMapRequest* request) {
-            return new MapStreamCall(*request, handler_, log_, storage_, streams_);
+          [this](CallbackServerContext* context, const v1::GetMapRequest* request) {
+            return new MapStreamCall(*context, *request, handler_, log_, storage_, streams_,
+                                     sending_);
           }));
 }
 

@@ -55,6 +55,7 @@ class PlannerService final : public grpc::Service {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   OpenStreams streams_;
   ReceiveWatch watch_;
+  ReceiveWatch sending_;  ///< of maps, to clients that receive them
   MessageMemory memory_;
   WorkQueue planning_;
   WorkQueue mapping_;

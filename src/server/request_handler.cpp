@@ -163,6 +163,14 @@ v1::SaveMapReply RequestHandler::save_map(const v1::SaveMapRequest& message) con
 }
 
 std::shared_ptr<const MapBytes> RequestHandler::get_map(const v1::GetMapRequest& message) const {
+  const std::uint64_t pinned_mib = store_.pinned_bytes() >> 20;
+  if (pinned_mib >= static_cast<std::uint64_t>(limits_.max_pinned_mib)) {
+    throw RequestError(grpc::StatusCode::RESOURCE_EXHAUSTED,
+                       "other clients still take " + std::to_string(pinned_mib) +
+                           " MiB of older maps, the limit is " +
+                           std::to_string(limits_.max_pinned_mib) +
+                           " MiB (max_pinned_mib): ask again later");
+  }
   return store_.bytes(from_message(message.format()));
 }
 

@@ -33,6 +33,7 @@ class RequestHandler {
                                   const CancelToken& cancel = CancelToken());
   v1::LoadMapReply load_map(const v1::LoadMapRequest& message);
   v1::SaveMapReply save_map(const v1::SaveMapRequest& message) const;
+  /// Throws RequestError (RESOURCE_EXHAUSTED) while others hold too much of older maps.
   std::shared_ptr<const MapBytes> get_map(const v1::GetMapRequest& message) const;
   v1::ClearMapReply clear_map(const v1::ClearMapRequest& message);
 

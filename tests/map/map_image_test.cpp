@@ -47,7 +47,8 @@ class MapImageTest : public ::testing::Test {
 
   UncertaintyMap map{0.05};
   SensorOptions sensor;
-  MapImage image;
+  HeldBytes all;
+  MapImage image{all};
 };
 
 TEST_F(MapImageTest, IsTheFileOfTheMapAsItGrows) {
@@ -59,8 +60,8 @@ TEST_F(MapImageTest, IsTheFileOfTheMapAsItGrows) {
 }
 
 TEST_F(MapImageTest, KnowsLeavesThatAreLargerThanATile) {
-  test::set_box(map, {{32768, 32768, 32768}, {32768 + 127, 32768 + 127, 32768 + 127}},
-                test::kFree);
+  constexpr std::uint16_t kLast = 32768 + 127;
+  test::set_box(map, {{32768, 32768, 32768}, {kLast, kLast, kLast}}, test::kFree);
   map.finish_writing();
   ASSERT_EQ(map.counts().leaves, 1U);
   EXPECT_TRUE(image.missing(map).empty());
@@ -99,17 +100,23 @@ TEST_F(MapImageTest, CountsWhatAnybodyHolds) {
   std::uint64_t one = 0;
   {
     const SharedBytes held = image.file(map);
-    one = image.held_bytes();
+    one = all.bytes();
     EXPECT_GT(one, held.size() * 9 / 10);
     EXPECT_LT(one, held.size() * 11 / 10);
+    EXPECT_EQ(image.bytes(), one);
     image.forget_all();
-    EXPECT_EQ(image.held_bytes(), one) << "a reader has them";
+    EXPECT_EQ(image.bytes(), 0U);
+    EXPECT_EQ(all.bytes(), one) << "a reader has them";
     EXPECT_EQ(image.file(map).joined(), held.joined());
-    EXPECT_EQ(image.held_bytes(), 2 * one);
+    EXPECT_EQ(all.bytes(), 2 * one);
+    EXPECT_EQ(image.bytes(), one);
   }
-  EXPECT_EQ(image.held_bytes(), one);
+  EXPECT_EQ(all.bytes(), one);
+  image.forget(insert(1).tiles);
+  EXPECT_LT(image.bytes(), one);
+  EXPECT_EQ(all.bytes(), image.bytes());
   image.forget_all();
-  EXPECT_EQ(image.held_bytes(), 0U);
+  EXPECT_EQ(all.bytes(), 0U);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ UncertaintyMap scattered_map() {
 
 TEST(MapStoreConcurrency, AScanDoesNotWaitForACopy) {
   MapStore store(test::small_robot(), {}, scattered_map(), 1);
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 2; ++round) {
     store.replace(scattered_map());
     std::atomic<bool> has_begun{false};
     std::atomic<bool> is_copied{false};

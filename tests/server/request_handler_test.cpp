@@ -158,6 +158,28 @@ TEST_F(RequestHandlerTest, LoadsAndSavesMaps) {
   EXPECT_EQ(handler.get_map({})->bytes.joined(), before);
 }
 
+TEST_F(RequestHandlerTest, RefusesMapsWhileOthersHoldTooMuchOfOlderOnes) {
+  limits.max_pinned_mib = 1;
+  const RequestHandler strict(store, nullptr, nullptr, limits);
+  const auto insert_finely = [this] {
+    store.clear(0.01);
+    store.insert(test::small_scan(), test::scan_pose(0));
+  };
+  insert_finely();
+  std::vector<std::shared_ptr<const MapBytes>> held;
+  EXPECT_THAT(test::message_of<RequestError>([&] {
+                for (int i = 0; i < 20; ++i, insert_finely()) held.push_back(strict.get_map({}));
+              }),
+              HasSubstr("the limit is 1 MiB (max_pinned_mib)"));
+  EXPECT_FALSE(held.empty());
+  EXPECT_GT(store.pinned_bytes(), 1U << 20);
+  store.insert(test::small_scan(), test::scan_pose(1));  // scans go on, and snapshots
+  EXPECT_GT(store.bytes(MapFormat::uncertainty_ot)->version, held.back()->version);
+  held.clear();
+  EXPECT_EQ(store.pinned_bytes(), 0U);
+  EXPECT_GT(strict.get_map({})->bytes.size(), 0U);
+}
+
 TEST_F(RequestHandlerTest, KeepsItsMapWhenAFileCannotBeRead) {
   folder.write("bad.ot", "not a map");
   v1::LoadMapRequest load;

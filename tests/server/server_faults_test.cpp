@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "server/call_log.hpp"
 #include "server/running_server.hpp"
 #include "support/error_message.hpp"
 #include "support/paths.hpp"
@@ -89,6 +90,35 @@ TEST_F(ServerFaults, ClientIsGoneWhileItTakesTheMap) {
   const auto reader = stub->GetMap(&context, {});
   context.TryCancel();
   reader->Finish();
+}
+
+/// Those who read get the map, however long they take in all; who stops reading is let go.
+TEST(StalledReader, IsLeftAlone) {
+  ServerLimits limits;
+  limits.max_send_s = 0.5;
+  test::RunningServer running(limits);
+  running.client.clear_map(0.01);
+  for (int i = 0; i < 8; ++i) {
+    running.client.insert_scan(test::small_scan(), test::scan_pose(12 * i));
+  }
+  const auto stub = running.stub();
+  grpc::ClientContext context;
+  const auto reader = stub->GetMap(&context, {});
+  v1::MapChunk chunk;
+  ASSERT_TRUE(reader->Read(&chunk));
+  ASSERT_GT(chunk.total_bytes(), 8U << 20) << "more than waits on the way";
+  const auto failed = [&] {
+    v1::GetStatusReply status;
+    grpc::ClientContext other;
+    EXPECT_TRUE(stub->GetStatus(&other, {}, &status).ok());
+    return status.latencies(static_cast<int>(Method::get_map)).failed();
+  };
+  EXPECT_TRUE(test::wait_until([&] { return failed() == 1; }));
+  std::uint64_t received = chunk.data().size();
+  while (reader->Read(&chunk)) received += chunk.data().size();
+  EXPECT_LT(received, chunk.total_bytes());
+  EXPECT_FALSE(reader->Finish().ok());
+  EXPECT_GT(running.client.get_map().bytes.size(), 8U << 20);
 }
 
 /// A million rays at voxels of a centimetre take seconds.
