@@ -50,16 +50,57 @@ MarkWindow::MarkWindow(VoxelKey least, const std::array<int, 3>& tiles)
   hit_of_ = std::make_unique_for_overwrite<std::uint32_t[]>(content_[0].size());
 }
 
-void MarkWindow::mark_passed(SegmentWalk walk) {
-  const Eigen::Vector3d least(least_.x, least_.y, least_.z);
-  const Eigen::Vector3d size(tiles_[0] * kTileSize, tiles_[1] * kTileSize, tiles_[2] * kTileSize);
-  if (!walk.clip(least, least + size)) return;
+std::array<const std::uint32_t*, 3> MarkWindow::part_by_key() const {
+  const std::array<int, 3> least{least_.x, least_.y, least_.z};
   std::array<const std::uint32_t*, 3> part_by_key;
   for (int axis = 0; axis < 3; ++axis) {
     part_by_key[axis] = number_part_[axis].data() + 1 - static_cast<std::ptrdiff_t>(least[axis]);
   }
-  walk.for_each_cell(
-      part_by_key, [marks = content_[0].data()](std::uint32_t number) { marks[number] = kPassed; });
+  return part_by_key;
+}
+
+void MarkWindow::mark_passed(SegmentWalk walk, SlabRange slabs) {
+  const Eigen::Vector3d least(least_.x, least_.y, least_.z);
+  const Eigen::Vector3d size(tiles_[0] * kTileSize, tiles_[1] * kTileSize, tiles_[2] * kTileSize);
+  if (!walk.clip(least, least + size)) return;
+  walk.for_each_cell_of(slabs, part_by_key(), [marks = content_[0].data()](std::uint32_t number) {
+    marks[number] = kPassed;
+  });
+}
+
+void MarkWindow::find_unmarked(const Shaft& shaft, SlabRange slabs,
+                               std::vector<SlabRange>& unmarked) const {
+  const std::array<int, 3> least{least_.x, least_.y, least_.z};
+  const auto inside = [&](int axis, int key) {
+    return std::clamp(key, least[axis], least[axis] + tiles_[axis] * kTileSize - 1);
+  };
+  const auto parts = part_by_key();
+  const int a = shaft.axis();
+  const int b = (a + 1) % 3;
+  const int c = (a + 2) % 3;
+  const int first = std::max({slabs.first, shaft.slabs().first, least[a]});
+  const int last = std::min({slabs.last, shaft.slabs().last, least[a] + tiles_[a] * kTileSize - 1});
+  const auto is_marked = [&](int slab) {
+    const Shaft::Cells cells = shaft.cells(slab);
+    const int first_b = inside(b, cells.first_b);
+    const int last_b = inside(b, cells.last_b);
+    const int last_c = inside(c, cells.last_c);
+    for (int i = inside(c, cells.first_c); i <= last_c; ++i) {
+      const std::uint32_t number_ac = parts[a][slab] + parts[c][i];
+      for (int j = first_b; j <= last_b; ++j) {
+        if (content_[0][number_ac + parts[b][j]] == kUntouched) return false;
+      }
+    }
+    return true;
+  };
+  for (int slab = first; slab <= last; ++slab) {
+    if (is_marked(slab)) continue;
+    if (!unmarked.empty() && unmarked.back().last == slab - 1) {
+      unmarked.back().last = slab;
+    } else {
+      unmarked.push_back({slab, slab});
+    }
+  }
 }
 
 HitVoxel& MarkWindow::mark_hit(VoxelKey key) {
@@ -70,11 +111,13 @@ HitVoxel& MarkWindow::mark_hit(VoxelKey key) {
     content_[0][number] = kHit;
     hit_of_[number] = static_cast<std::uint32_t>(hits_.size());
     hits_.emplace_back();
+    hit_numbers_.push_back(number);
   }
   return hits_[hit_of_[number]];
 }
 
-void MarkWindow::summarise() {
+void MarkWindow::finish() {
+  for (const std::uint32_t number : hit_numbers_) content_[0][number] = kHit;
   for (int level = 1; level <= kTileBits; ++level) {
     const std::uint8_t* children = content_[level - 1].data();
     for (std::uint8_t& block : content_[level]) {

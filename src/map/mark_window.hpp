@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "map/segment_walk.hpp"
+#include "map/shaft.hpp"
 #include "nbvopt/map/voxel.hpp"
 
 namespace nbvopt {
@@ -32,14 +33,17 @@ class MarkWindow {
   /// The tile of `least` is the first of tiles[0] x tiles[1] x tiles[2]. Nothing is marked.
   MarkWindow(VoxelKey least, const std::array<int, 3>& tiles);
 
-  /// Marks what the segment pierces within the window as passed.
-  void mark_passed(SegmentWalk walk);
-
-  /// Marks a voxel of the window as hit, which wins over passed; call after all segments.
+  /// Marks a voxel of the window as hit; call before all segments.
   HitVoxel& mark_hit(VoxelKey key);
 
-  /// Makes content() ready; call when all is marked.
-  void summarise();
+  /// Marks what the segment pierces in these slabs within the window as passed.
+  void mark_passed(SegmentWalk walk, SlabRange slabs);
+
+  /// Appends those of the slabs in which some voxel that the shaft touches is not marked.
+  void find_unmarked(const Shaft& shaft, SlabRange slabs, std::vector<SlabRange>& unmarked) const;
+
+  /// Lets hits win over passed, and makes content() ready; call when all is marked.
+  void finish();
 
   /// The OR of the marks in a block of 8^level voxels; a tile is a block of level kTileBits.
   std::uint8_t content(int level, std::uint32_t block) const { return content_[level][block]; }
@@ -55,6 +59,8 @@ class MarkWindow {
   VoxelKey key(std::uint32_t number) const;
 
  private:
+  std::array<const std::uint32_t*, 3> part_by_key() const;
+
   VoxelKey least_;
   std::array<int, 3> tiles_;
   /// A voxel's number is the sum of one entry an axis, found by its key from one before the
@@ -63,6 +69,7 @@ class MarkWindow {
   std::array<std::vector<std::uint8_t>, kTileBits + 1> content_;  ///< by level
   std::unique_ptr<std::uint32_t[]> hit_of_;  ///< by number; set where a hit is marked
   std::vector<HitVoxel> hits_;
+  std::vector<std::uint32_t> hit_numbers_;
 };
 
 }  // namespace nbvopt

@@ -9,9 +9,9 @@
 #include "map/map_access.hpp"
 #include "map/mark_window.hpp"
 #include "map/scan_counting.hpp"
+#include "map/scan_marking.hpp"
 #include "map/scan_rays.hpp"
 #include "map/scan_windows.hpp"
-#include "map/segment_walk.hpp"
 #include "map/tile_undo.hpp"
 #include "map/tile_update.hpp"
 #include "nbvopt/core/error.hpp"
@@ -65,14 +65,10 @@ class WindowWriter {
   }
 
   void mark(const WindowWork& work, MarkWindow& window) const {
-    constexpr std::size_t kRaysAtOnce = 4096;  // a millisecond or so
-    const auto& ends = work.rays.ends;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      if (i % kRaysAtOnce == 0) check_cancelled();
-      window.mark_passed(SegmentWalk(work.rays.origin, ends[i]));
-    }
     for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan_, window);
-    window.summarise();
+    mark_rays(work.rays, limits_.cancel, window);
+    check_cancelled();
+    window.finish();
   }
 
   void check_cancelled() const {

@@ -10,6 +10,13 @@
 
 namespace nbvopt {
 
+/// Slabs of cells between two integers of an axis, by their lower ones; both included.
+struct SlabRange {
+  int first = 0;
+  int last = 0;
+};
+inline constexpr SlabRange kAllSlabs{0, 65535};
+
 /// A segment on a lattice, where cell k spans [k, k + 1), seen along its longest axis `a`: in each
 /// slab of cells between two integers of that axis it pierces one, two or three cells, so that
 /// one slab is a few instructions without a decision that is hard to predict. Coordinates lie in
@@ -26,6 +33,9 @@ class SegmentWalk {
     slope_b_ = (end_[b_] - start_[b_]) * inverse_length;
     slope_c_ = (end_[c_] - start_[c_]) * inverse_length;
   }
+
+  /// The longest axis.
+  int axis() const { return a_; }
 
   /// Cuts the segment to the part inside the box [least, most). Returns false when none is left.
   bool clip(const Eigen::Vector3d& least, const Eigen::Vector3d& most) {
@@ -49,23 +59,33 @@ class SegmentWalk {
   /// coordinates differ. Rounding may ask for coordinates on b and c one beyond the ends'.
   template <class Part, class Visit>
   void for_each_cell(const std::array<Part, 3>& number_part, const Visit& visit) const {
+    for_each_cell_of(kAllSlabs, number_part, visit);
+  }
+
+  /// The same for the cells in some slabs alone.
+  template <class Part, class Visit>
+  void for_each_cell_of(SlabRange slabs, const std::array<Part, 3>& number_part,
+                        const Visit& visit) const {
     const Part part_a = number_part[a_];
     const Part part_b = number_part[b_];
     const Part part_c = number_part[c_];
-    const int first = static_cast<int>(start_[a_]);
-    const int last = static_cast<int>(end_[a_]);
+    const int start = static_cast<int>(start_[a_]);
+    const int end = static_cast<int>(end_[a_]);
+    const int first = std::max(start, slabs.first);
+    const int last = std::min(end, slabs.last);
+    if (first > last) return;
     const std::int64_t end_b = fixed(end_[b_]);
     const std::int64_t end_c = fixed(end_[c_]);
     const std::int64_t step_b = fixed(slope_b_);
     const std::int64_t step_c = fixed(slope_c_);
     // Where the line enters the slab, and by which cell the segment does.
-    std::int64_t b = fixed(start_[b_] - (start_[a_] - first) * slope_b_);
-    std::int64_t c = fixed(start_[c_] - (start_[a_] - first) * slope_c_);
-    auto number_b = part_b[cell(fixed(start_[b_]))];
-    auto number_c = part_c[cell(fixed(start_[c_]))];
+    std::int64_t b = fixed(start_[b_] - (start_[a_] - start) * slope_b_) + (first - start) * step_b;
+    std::int64_t c = fixed(start_[c_] - (start_[a_] - start) * slope_c_) + (first - start) * step_c;
+    auto number_b = part_b[cell(first == start ? fixed(start_[b_]) : b)];
+    auto number_c = part_c[cell(first == start ? fixed(start_[c_]) : c)];
     for (int slab = first; slab <= last; ++slab) {
-      const std::int64_t next_b = slab == last ? end_b : b + step_b;
-      const std::int64_t next_c = slab == last ? end_c : c + step_c;
+      const std::int64_t next_b = slab == end ? end_b : b + step_b;
+      const std::int64_t next_c = slab == end ? end_c : c + step_c;
       const auto number_a = part_a[slab];
       const auto next_number_b = part_b[cell(next_b)];
       const auto next_number_c = part_c[cell(next_c)];
