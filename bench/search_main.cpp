@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bench/against_grids.hpp"
+#include "bench/hard_cases.hpp"
 #include "bench/run_benchmarks.hpp"
 #include "bench/search_report.hpp"
 #include "core/atomic_file.hpp"
@@ -43,6 +44,7 @@ int run_all(int argc, char** argv) {
   }
   const int exit_code =
       run_benchmarks(static_cast<int>(arguments.size()), arguments.data(), benchmarks);
+  if (exit_code == 0) std::cout << '\n' << measure_hard_cases();
   if (exit_code == 0 && json_file) write_file_atomically(*json_file, to_json_lines(maps));
   return exit_code;
 }
