@@ -1,9 +1,11 @@
 """A client of HTTP/2 that does what a gRPC library keeps its users from: messages without an end.
 
-It attacks the server of a test on loopback, in one thread, for as long as it is told.
+It attacks a server of one's own on loopback, in one thread, for as long as it is told.
 """
 
 import collections
+import pathlib
+import re
 import selectors
 import socket
 import struct
@@ -187,3 +189,9 @@ class Attack:
     def close(self) -> None:
         for each in self._connections:
             each.close()
+
+
+def resident_mib(process_id: int) -> float:
+    """What a process has in memory."""
+    status = pathlib.Path(f"/proc/{process_id}/status").read_text()
+    return int(re.search(r"VmRSS:\s*(\d+) kB", status)[1]) / 1024

@@ -2,12 +2,13 @@
 
 import os
 import pathlib
-import re
 import resource
 import shutil
 import subprocess
 import tempfile
 from typing import Optional
+
+from hostile_http2 import resident_mib
 
 
 def _limit_files(most: int) -> None:
@@ -42,8 +43,7 @@ class Server:
 
     def memory_mib(self) -> float:
         """What is resident."""
-        status = pathlib.Path(f"/proc/{self._process.pid}/status").read_text()
-        return int(re.search(r"VmRSS:\s*(\d+) kB", status)[1]) / 1024
+        return resident_mib(self._process.pid)
 
     def log(self) -> str:
         return (self.folder / "log").read_text()

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""What a server takes of attacks: resident memory, and how long another client waits for a plan.
+
+    PYTHONPATH=BUILD/python bench/server_attacks.py NBVOPT [SECONDS]
+
+Each attack runs SECONDS (15) against a server of its own on loopback, which has one planning thread
+and one core; it ends when the server takes more than 2 GB.
+"""
+import contextlib
+import pathlib
+import subprocess
+import sys
+import threading
+import time
+
+import grpc
+from nbvopt_client import PlannerClient, PlannerError, plan_request, rpc
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests/python"))
+from hostile_http2 import Attack, connect, resident_mib  # noqa: E402
+
+MOST_MIB = 2000
+STATE = {"base": (1.0, 1.0, 1.0), "joints": (0.0, 0.0, 0.4), "motion_time_s": 1.0}
+INSERT_SCAN = "/nbvopt.v1.Planner/InsertScan"
+
+
+class Observer:
+    """Another client, which asks for a plan again and again, and looks at the server's memory."""
+
+    def __init__(self, nbvopt: str):
+        command = ["taskset", "-c", "0", nbvopt, "serve", "--create", "0.05", "--threads", "1"]
+        self._process = subprocess.Popen(
+            [*command, "--listen", "127.0.0.1:0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self.address = self._process.stdout.readline().split()[-1]
+        self.waits_s = []
+        self.refused = 0
+        self.least_mib = self.most_mib = resident_mib(self._process.pid)
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._ask)
+
+    def look(self) -> bool:
+        """Whether the server's memory is still within what the attack may take."""
+        self.most_mib = max(self.most_mib, resident_mib(self._process.pid))
+        return self.most_mib < MOST_MIB
+
+    def _ask(self) -> None:
+        with PlannerClient(self.address, timeout_s=20.0) as planner:
+            while not self._ended.wait(0.1):
+                start = time.monotonic()
+                try:
+                    planner.plan(**STATE)
+                    self.waits_s.append(time.monotonic() - start)
+                except PlannerError:
+                    self.refused += 1
+                self.look()
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *error) -> None:
+        self._ended.set()
+        self._thread.join()
+        self._process.terminate()
+        self._process.wait()
+
+
+def withhold(observer: Observer, seconds: float, connections: int, streams: int) -> None:
+    attack = Attack(observer.address, connections, streams, 31 << 20, INSERT_SCAN)
+    attack.run(seconds, observer.look)
+    attack.close()
+
+
+def be_silent(observer: Observer, seconds: float, connections: int) -> None:
+    silent = [connect(observer.address) for _ in range(connections)]
+    time.sleep(seconds)
+    for each in silent:
+        each.close()
+
+
+def read_no_plans(observer: Observer, seconds: float, streams: int) -> None:
+    end = time.monotonic() + seconds
+
+    def states():
+        while time.monotonic() < end:
+            yield plan_request(**STATE)
+            time.sleep(0.02)
+
+    with grpc.insecure_channel(observer.address) as channel:
+        calls = [rpc.PlannerStub(channel).PlanStream(states()) for _ in range(streams)]
+        time.sleep(seconds)
+        for call in calls:
+            call.cancel()
+
+
+def main(nbvopt: str, seconds: float = 15.0) -> None:
+    attacks = {
+        "none": lambda observer, seconds: time.sleep(seconds),
+        "2 connections x 100 scans of 31 MiB, last byte withheld": lambda *on: withhold(*on, 2, 100),
+        "120 connections x 1 such scan": lambda *on: withhold(*on, 120, 1),
+        "500 connections that say nothing": lambda *on: be_silent(*on, 500),
+        "20 PlanStreams whose answers nobody reads": lambda *on: read_no_plans(*on, 20),
+    }
+    print("| attack | resident, MiB | plans of another client | refused | median, s | longest, s |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: |")
+    for name, attack in attacks.items():
+        with Observer(nbvopt) as observer, contextlib.suppress(ConnectionError):
+            time.sleep(1.0)
+            attack(observer, seconds)
+        waits_s = sorted(observer.waits_s)
+        print(
+            f"| {name} | {observer.least_mib:.0f} to {observer.most_mib:.0f} | {len(waits_s)} "
+            f"| {observer.refused} | {waits_s[len(waits_s) // 2]:.2f} | {waits_s[-1]:.2f} |",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], *map(float, sys.argv[2:]))
