@@ -3,11 +3,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <thread>
 #include <vector>
 
 #include "bench/latencies.hpp"
+#include "bench/resident_memory.hpp"
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/exploration.hpp"
@@ -50,16 +50,6 @@ std::vector<Frame> drive_through_the_office() {
     frames.push_back({T_map_base, T_map_sensor, camera.capture(T_map_sensor, i)});
   }
   return frames;
-}
-
-/// The memory of a process that is in use, MB.
-double resident_mb(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string word; status >> word;) {
-    double kilobytes = 0.0;
-    if (word == "VmRSS:" && status >> kilobytes) return kilobytes / 1024.0;
-  }
-  return 0.0;
 }
 
 /// Calls `work(i)` at a steady rate until `end`; one that takes too long makes the next one late,
