@@ -123,8 +123,8 @@ void answer_queries() {
   experiment::run_worker([&](const Json& unit) { return runner.run(study::unit_of(unit)); });
 }
 
-void report(const study::StudyFolder& folder) {
-  const study::Results results = study::read_results(study::read_study(folder), folder);
+void report(const study::StudyFolder& folder, study::Against against) {
+  const study::Results results = study::read_results(study::read_study(folder), folder, against);
   write_report(results, folder.report());
   print_answer("the report is in " + (folder.report() / "report.md").string() + '\n');
 }
@@ -134,7 +134,13 @@ void add_report(CLI::App& study) {
   CLI::App* command = study.add_subcommand(
       "report", "Write tables, CSV files and pictures of what was found into DIR/report");
   command->add_option("DIR", *folder, "the study's folder")->required();
-  command->callback([folder] { report({*folder}); });
+  auto against_bound = std::make_shared<bool>(false);
+  command->add_flag("--against-bound", *against_bound,
+                    "measure answers against what the references proved that no view exceeds, "
+                    "instead of the best that is known");
+  command->callback([folder, against_bound] {
+    report({*folder}, *against_bound ? study::Against::upper_bound : study::Against::best_known);
+  });
 }
 
 void add_run_arguments(CLI::App& command, StudyOptions& options) {

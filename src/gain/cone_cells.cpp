@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace nbvopt::detail {
 namespace {
@@ -122,17 +123,19 @@ void ConeCells::fill_tile(int azimuth, int elevation, Cell* cells, const ConeCel
     const double az = frame_.azimuth_rad + (azimuth + i) * frame_.cell_rad;
     along[i] = {std::cos(az), std::sin(az)};
   }
-  std::array<Eigen::Vector2d, kTile + 1> up;
-  for (int j = 0; j <= kTile; ++j) {
+  const auto row_of_corners = [&](int j) {
     constexpr double kPole_rad = 0.5 * std::numbers::pi;
     const double el = std::clamp((elevation + j) * frame_.cell_rad, -kPole_rad, kPole_rad);
-    up[j] = {std::cos(el), std::sin(el)};
-  }
-  const auto corner = [&](int i, int j) -> Eigen::Vector3d {
-    return frame_.R_map *
-           Eigen::Vector3d(up[j].x() * along[i].x(), up[j].x() * along[i].y(), up[j].y());
+    std::array<Eigen::Vector3d, kTile + 1> corners;
+    for (int i = 0; i <= kTile; ++i) {
+      corners[i] = frame_.R_map * Eigen::Vector3d(std::cos(el) * along[i].x(),
+                                                  std::cos(el) * along[i].y(), std::sin(el));
+    }
+    return corners;
   };
+  auto above = row_of_corners(0);
   for (int j = 0; j < kTile; ++j) {
+    const auto below = std::exchange(above, row_of_corners(j + 1));
     for (int i = 0; i < kTile; ++i) {
       Cell& cell = cells[j * kTile + i];
       const Cell* known =
@@ -141,9 +144,8 @@ void ConeCells::fill_tile(int azimuth, int elevation, Cell* cells, const ConeCel
         cell = *known;
         continue;
       }
-      Cone cone =
-          cone_of(grid, {corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)},
-                  frame_.cell_rad, origin_min_, origin_max_);
+      Cone cone = cone_of(grid, {below[i], below[i + 1], above[i], above[i + 1]}, frame_.cell_rad,
+                          origin_min_, origin_max_);
       if (known != nullptr) cone.clear = known->clear;
       const ConeView view = march(cone);
       ++cones_;

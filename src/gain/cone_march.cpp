@@ -18,6 +18,9 @@ constexpr double kRounding = 1e-3;  // voxels
 /// Cones whose rays' values differ by less are not looked at any closer.
 constexpr double kSettled = 2e-3;
 
+/// Of u_d by distance.
+constexpr double kStepsPerVoxel = 16.0;
+
 constexpr std::uint64_t kRow = 0xFF;
 constexpr std::uint64_t kColumn = 0x0101010101010101;
 
@@ -110,20 +113,25 @@ ConeMarch::ConeMarch(const ConeGrid& grid, const DepthCamera& camera, double res
   far_ = *longest / resolution_m + kRounding;
   const UncertaintyModel model(camera.options());
   focal_ = model.focal_distance_m() / resolution_m;
-  weight_ = model.distance_weight();
+  // Up to the end of the last layer that the longest ray is in.
+  const double longest_part = std::max(focal_, 2.0 * far_ + kWindow);
+  for (int k = 0; k <= static_cast<int>(longest_part * kStepsPerVoxel) + 2; ++k) {
+    distance_part_.push_back(model.distance_weight() * UncertaintyModel::focal_uncertainty(
+                                                           k / kStepsPerVoxel * resolution_m));
+  }
   unknown_value_ = kUnknownUncertainty - model.normal_weight() * kUnseenNormalUncertainty;
   none_stored_ = carries_uncertainty ? kUnknownUncertainty
                                      : static_cast<float>(camera.options().occupied_uncertainty);
 }
 
 double ConeMarch::least_distance_part(double from, double to) const {
-  const double nearest = std::clamp(focal_, from, to);
-  return weight_ * UncertaintyModel::focal_uncertainty(std::abs(nearest - focal_) * resolution_m_);
+  const double nearest = std::max({from - focal_, focal_ - to, 0.0});
+  return distance_part_[static_cast<std::size_t>(nearest * kStepsPerVoxel)];
 }
 
 double ConeMarch::largest_distance_part(double from, double to) const {
   const double farthest = std::max(std::abs(from - focal_), std::abs(to - focal_));
-  return weight_ * UncertaintyModel::focal_uncertainty(farthest * resolution_m_);
+  return distance_part_[static_cast<std::size_t>(farthest * kStepsPerVoxel) + 1];
 }
 
 ConeMarch::Layer ConeMarch::layer_at(const Cone& cone, int k) const {
@@ -180,8 +188,9 @@ void ConeMarch::take_hits(const Cone& cone, const Layer& layer, std::uint64_t hi
     if (u_old <= values.max && values.min < values.max - kSettled) continue;
     const auto take = [&](Span depth) {
       const double from = std::max(depth.min * cone.stretch_min, near_min_);
-      const double to = std::max(depth.max * cone.stretch_max, near_max_);
+      double to = std::max(depth.max * cone.stretch_max, near_max_);
       if (from > far_) return;
+      to = std::min(to, far_);
       values.max = std::max(values.max, u_old - least_distance_part(from, to));
       // Where it is too far, a ray may hit nothing.
       const double least =

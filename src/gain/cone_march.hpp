@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "gain/cone_grid.hpp"
 #include "nbvopt/sensor/depth_camera.hpp"
@@ -66,7 +67,8 @@ class ConeMarch {
   /// Which of these voxels are occupied, and which of these free ones have unknown neighbours.
   std::uint64_t occupied_of(const Cone& cone, const Layer& layer, std::uint64_t voxels) const;
   std::uint64_t frontiers_of(const Cone& cone, const Layer& layer, std::uint64_t voxels) const;
-  /// The least and the largest u_d between two distances, times its weight.
+  /// No more than the least, and no less than the largest u_d between two distances, times its
+  /// weight.
   double least_distance_part(double from, double to) const;
   double largest_distance_part(double from, double to) const;
 
@@ -76,7 +78,8 @@ class ConeMarch {
   bool near_blocking_;
   bool sees_through_unknown_;  ///< the expected gain does
   double focal_;
-  double weight_;         ///< of u_d
+  /// u_d times its weight, by the distance from the focal one in sixteenths of a voxel.
+  std::vector<double> distance_part_;
   double unknown_value_;  ///< u_old of the unknown, less what normals take
   float none_stored_;     ///< u of occupied voxels in bricks that store none
 };

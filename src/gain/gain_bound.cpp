@@ -316,9 +316,11 @@ bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
       std::make_shared<ConeCells>(frame, all, lattice_.to_lattice(low_m) - cones_grid_.corner(),
                                   lattice_.to_lattice(high_m) - cones_grid_.corner());
   for (const Alive::Row& row : alive.rows) {
+    const std::int64_t before = cells->cones();
     if (!cells->fill(seen_from(row), block.cells.get(), cones_grid_, march_, stop)) return false;
+    cones_ += cells->cones() - before;
+    if (cones_ >= stop.max_evaluations) return false;
   }
-  cones_ += cells->cones();
   block.cells = cells;
 
   const std::vector<float> windows = cells->windows();

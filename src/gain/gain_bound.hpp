@@ -58,7 +58,8 @@ class GainBound {
   std::vector<BoundBlock> children(const BoundBlock& block) const;
 
   /// Lowers the bounds of those bins that are above `worth`. Returns false where it had to stop,
-  /// the bounds then being valid, if not as low.
+  /// the bounds then being valid, if not as low. Evaluations, of which `stop` may allow so many,
+  /// are cones, of all calls together.
   bool tighten(BoundBlock& block, float worth, const StopRule& stop);
 
   /// The joint positions of a bin, which may stick out of the box.

@@ -1,6 +1,7 @@
 #include "planner/certify.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/stopwatch.hpp"
@@ -54,10 +55,13 @@ class BranchAndBound {
   bool is_met() const { return upper_bound() <= worth(); }
 
   bool tighten_all() {
-    std::sort(blocks_.begin(), blocks_.end(),
-              [](const BoundBlock& a, const BoundBlock& b) { return a.largest() > b.largest(); });
-    return std::all_of(blocks_.begin(), blocks_.end(),
-                       [&](BoundBlock& block) { return bound_.tighten(block, worth(), stop_); });
+    std::vector<std::pair<float, BoundBlock*>> order;
+    for (BoundBlock& block : blocks_) order.emplace_back(block.largest(), &block);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return std::all_of(order.begin(), order.end(), [&](const auto& next) {
+      return bound_.tighten(*next.second, worth(), stop_);
+    });
   }
 
   /// The next level's boxes. Returns false where there are none.
@@ -128,6 +132,7 @@ CertifiedView certify(const VoxelGrid& grid, const SensorOptions& sensor, const 
   const Stopwatch watch;
   StopRule until = StopRule::within(options.time_limit_ms);
   until.cancel = stop.cancel;
+  until.max_evaluations = options.max_cones;
   if (stop.deadline) until.deadline = std::min(*until.deadline, *stop.deadline);
   CertifiedView view =
       BranchAndBound(grid, sensor, mast, box, objective, options, until).run(joints);

@@ -7,12 +7,6 @@
 
 namespace nbvopt {
 
-/// What the bound was led to.
-struct CertifiedView {
-  JointPosition joints;  ///< the best view known, the given one unless `improvements` is above 0
-  Certificate certificate;
-};
-
 /// Bounds the gain of all views of the box. `joints` is the best view known; the objective is the
 /// gain of the evaluator "exact", positive or expected. Stops once the gap is met, once its time,
 /// the deadline or the token of `stop` ends it, or where no finer boxes are told apart.

@@ -164,8 +164,8 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
       std::chrono::duration<double, std::milli>(StopRule::Clock::now() - begin).count();
   if (request.certify) {
     const CertifiedView certified =
-        certify(*grid_, sensor_, mast, result.box, objective, JointPosition::from(solved.best),
-                *request.certify, request.stop);
+        nbvopt::certify(*grid_, sensor_, mast, result.box, objective,
+                        JointPosition::from(solved.best), *request.certify, request.stop);
     solved.best = certified.joints.vector();
     result.certificate = certified.certificate;
   }
@@ -179,6 +179,18 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
   result.map_version = grid_->version();
   if (sensor_.gain.has(GainKind::expected)) result.hazards = hazards_;
   return result;
+}
+
+CertifiedView Planner::certify(const PlanRequest& asked, const JointPosition& joints) const {
+  PlanRequest request = asked;
+  if (!request.certify) request.certify.emplace();
+  std::vector<std::string> warnings;  // a plan reports them
+  request = usable(request, warnings);
+  const Reach reach = ready_reach(request);
+  const JointBox box = box_free_of_obstacles(reach, *grid_);
+  const ViewObjective objective(reach.mast, sensor_, box, *evaluator_, nullptr, nullptr);
+  return nbvopt::certify(*grid_, sensor_, reach.mast, box, objective, joints, *request.certify,
+                         request.stop);
 }
 
 JointBox Planner::reachable_box(const PlanRequest& asked) const {

@@ -30,6 +30,9 @@ class Planner {
 
   PlanResult plan(const PlanRequest& asked, const Solver& solver) const;
 
+  /// As ViewPlanner::certify().
+  CertifiedView certify(const PlanRequest& asked, const JointPosition& joints) const;
+
   /// PlanResult::box.
   JointBox reachable_box(const PlanRequest& asked) const;
 

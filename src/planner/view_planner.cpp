@@ -127,6 +127,10 @@ PlanResult ViewPlanner::plan(const PlanRequest& request, const Solver& solver) c
   return impl_->ask([&](const Planner& planner) { return planner.plan(request, solver); });
 }
 
+CertifiedView ViewPlanner::certify(const PlanRequest& request, const JointPosition& joints) const {
+  return impl_->ask([&](const Planner& planner) { return planner.certify(request, joints); });
+}
+
 ViewGain ViewPlanner::evaluate(const Transform& T_map_sensor) const {
   return impl_->ask(
       [&](const Planner& planner) { return planner.evaluator().evaluate(T_map_sensor); });

@@ -99,7 +99,10 @@ void read_cases(const Study& study, const StudyFolder& folder, Results& results)
   experiment::for_each_record(folder.references(), [&](const Json& record) {
     const auto known = case_of_id.find(record_id(record));
     if (known == case_of_id.end() || record.contains("failure")) return;
-    results.cases[known->second].reference_gain = record.at("gain").get<double>();
+    CaseResult& one = results.cases[known->second];
+    one.best_known = record.at("gain").get<double>();
+    one.upper_bound = record.value("upper_bound", one.upper_bound);  // older records have none
+    one.reference_gain = results.against == Against::upper_bound ? one.upper_bound : one.best_known;
   });
 }
 
@@ -134,11 +137,12 @@ std::string record_id(const Json& record) {
   return record.at(record.contains("unit") ? "unit" : "case").get<std::string>();
 }
 
-Results read_results(const Study& study, const StudyFolder& folder) {
+Results read_results(const Study& study, const StudyFolder& folder, Against against) {
   Results results;
   results.study = study.name;
   results.budgets = study.budgets;
   for (const NamedSearch& named : study.searches) results.solvers.push_back(named.label);
+  results.against = against;
   read_cases(study, folder, results);
   read_runs(study, folder, results);
   return results;

@@ -21,6 +21,8 @@ std::string record_id(const Json& record);
 
 /// Reads what a study's folder holds. Records of units that the study does not have are passed
 /// over; of several of a unit the last one counts. Throws InputError when a record is damaged.
-Results read_results(const Study& study, const StudyFolder& folder);
+/// Measured against the upper bound, it is the bound that stands for each case's reference.
+Results read_results(const Study& study, const StudyFolder& folder,
+                     Against against = Against::best_known);
 
 }  // namespace nbvopt::study

@@ -18,8 +18,15 @@ struct CaseResult {
   std::size_t start = 0;  ///< its number among the map's
   double motion_time_s = 0.0;
   UncertaintyMode mode = UncertaintyMode::both;
-  /// The best exact gain there is, from the reference search; NaN where that has not run.
+  /// What answers are measured against, NaN where it is not known: one of the next two.
   double reference_gain = std::numeric_limits<double>::quiet_NaN();
+  /// The best exact gain that the reference search found; NaN where it has not run.
+  double best_known = std::numeric_limits<double>::quiet_NaN();
+  /// What it proved that no view in reach exceeds; NaN where it did not.
+  double upper_bound = std::numeric_limits<double>::quiet_NaN();
+
+  /// What a view that is not known could add at most, as a share of the bound.
+  double gap() const { return upper_bound > 0.0 ? 1.0 - best_known / upper_bound : 0.0; }
 };
 
 /// What bounded a run.
@@ -58,8 +65,15 @@ struct Run {
   bool has_failed() const { return !failure.empty(); }
 };
 
+/// What answers are measured against.
+enum class Against {
+  best_known,   ///< the best exact gain that the reference search found
+  upper_bound,  ///< what it proved that no view exceeds
+};
+
 struct Results {
   std::string study;  ///< its name
+  Against against = Against::best_known;
   std::vector<CaseResult> cases;
   std::vector<std::string> solvers;  ///< the first is the one that the others are compared with
   std::vector<Budget> budgets;       ///< from tight to loose, evaluations before times

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <limits>
+#include <vector>
 
 #include "nbvopt/planner/view_planner.hpp"
 #include "nbvopt/solver/registry.hpp"
@@ -89,6 +90,23 @@ TEST_P(Optima, AreFoundByAuto) {
   EXPECT_GE(mean, GetParam().mean_share);
   std::cout << GetParam().name << ": auto reaches " << mean << " of the best gain in the mean, "
             << worst << " in the worst case\n";
+}
+
+TEST_P(Optima, AreBelowTheBound) {
+  const ViewPlanner planner = this->planner();
+  std::vector<double> gaps;
+  for (const nlohmann::json& known : oracle_.at("cases")) {
+    PlanRequest request = request_of(known);
+    request.certify = {.gap = 0.0, .time_limit_ms = 1e9, .max_cones = 100'000};
+    const PlanResult result = planner.plan(request);
+    const JointPosition best = test::oracle_joints(known.at("best"));
+    const double best_gain = planner.evaluate(T_map_sensor(request, planner.mast(), best)).gain;
+    EXPECT_LE(best_gain, result.certificate->upper_bound) << known;
+    gaps.push_back(result.certificate->gap());
+  }
+  std::ranges::sort(gaps);
+  std::cout << GetParam().name << ": after 100,000 cones the gap is " << gaps[gaps.size() / 2]
+            << " in the median case, " << gaps.back() << " in the worst\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, Optima,

@@ -103,7 +103,10 @@ TEST_F(StudyRun, RecordsAnswersThatKeepTheirPromises) {
     if (!is_released_code) {
       EXPECT_EQ(run.progress.back().gain, run.gain);
     }
-    const double reference = results.cases[run.case_index].reference_gain;
+    const CaseResult& one = results.cases[run.case_index];
+    EXPECT_LE(run.gain, one.upper_bound);
+    EXPECT_LE(one.best_known, one.upper_bound);
+    const double reference = one.reference_gain;
     EXPECT_LE(run.gain, reference * (1.0 + 2e-3));
   }
 }

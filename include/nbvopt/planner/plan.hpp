@@ -25,6 +25,8 @@ struct TimedPose {
 struct CertifyOptions {
   double gap = 0.01;              ///< it is enough once Certificate::gap() is no larger
   double time_limit_ms = 10'000;  ///< after the search; the request's stop rule holds as well
+  /// Stops after about so many, wherever it runs; Certificate::cones tells how many they were.
+  std::int64_t max_cones = std::numeric_limits<std::int64_t>::max();
   bool operator==(const CertifyOptions&) const = default;
 };
 
@@ -40,6 +42,12 @@ struct Certificate {
   /// What a better view could add at most, as a share of the bound, in [0, 1].
   double gap() const { return upper_bound > 0.0 ? 1.0 - gain / upper_bound : 0.0; }
   bool operator==(const Certificate&) const = default;
+};
+
+/// A view, and a bound on what any other gains.
+struct CertifiedView {
+  JointPosition joints;  ///< the best known
+  Certificate certificate;
 };
 
 /// One question. Born with NaN where there is no sensible default.

@@ -72,6 +72,11 @@ class ViewPlanner {
   /// Answers with a solver of your own.
   PlanResult plan(const PlanRequest& request, const Solver& solver) const;
 
+  /// Bounds the gain of all views in the request's reach, as its `certify` says or by default, and
+  /// improves on the view at `joints`. Throws UsageError where the planner's evaluator is not
+  /// "exact" or its gain neither positive nor expected.
+  CertifiedView certify(const PlanRequest& request, const JointPosition& joints) const;
+
   /// The gain of one view; joint limits do not bind. Throws InputError when the pose is not finite
   /// or lies off the map's lattice.
   ViewGain evaluate(const Transform& T_map_sensor) const;

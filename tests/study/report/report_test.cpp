@@ -77,6 +77,27 @@ class StudyReport : public testing::Test {
   study::Results results;
 };
 
+TEST_F(StudyReport, SaysHowManyReferencesAreCertified) {
+  results.cases[0].best_known = results.cases[1].best_known = results.cases[2].best_known = 1000.0;
+  results.cases[0].upper_bound = 1005.0;
+  results.cases[1].upper_bound = 1020.0;
+  results.cases[2].upper_bound = 1250.0;
+  write();
+  EXPECT_THAT(
+      written("report.md"),
+      HasSubstr("Of 3 references 1 are certified: no view in reach gains 1 % more. The best "
+                "known gain is within 1.96 % of what is proved to be the most in the median "
+                "case, and within 20.00 % in the worst."));
+}
+
+TEST_F(StudyReport, SaysWhatItMeasuresAgainst) {
+  write();
+  EXPECT_THAT(written("report.md"), HasSubstr("over the best exact gain known for its case"));
+  results.against = study::Against::upper_bound;
+  write();
+  EXPECT_THAT(written("report.md"), HasSubstr("over the bound that no view of its case exceeds"));
+}
+
 TEST_F(StudyReport, SaysWhatWasStudied) {
   write();
   const std::string text = written("report.md");
