@@ -41,7 +41,8 @@ constexpr double kResolution_m = 0.05;
 constexpr int kMaxMap = 256;
 constexpr int kMaxPinned = 32;
 constexpr int kMaxBuffered = 64;
-constexpr double kAllowed = 1.1 * (kMaxMap + kMaxPinned + 2 * kMaxBuffered);
+constexpr int kMarks = 81;  // of a scan that is being inserted
+constexpr double kAllowed = 1.1 * (kMaxMap + kMaxPinned + 2 * kMaxBuffered + kMarks);
 
 class Soak {
  public:
@@ -66,7 +67,8 @@ class Soak {
 
   std::string report() const {
     std::string text = "| event | times |\n| --- | ---: |\n";
-    for (const auto& [name, count] : counts_) text += formatted("| %s | %d |\n", name.c_str(), count);
+    for (const auto& [name, count] : counts_)
+      text += formatted("| %s | %d |\n", name.c_str(), count);
     return text + "\n" + Latencies::header() + scans_.row("a scan") + plans_.row("a plan") +
            formatted("\nResident at most %.0f MB beyond the %.0f MB of an empty server, of %.0f.\n",
                      most_resident_mb_ - empty_mb_, empty_mb_, kAllowed);
