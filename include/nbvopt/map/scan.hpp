@@ -49,7 +49,7 @@ struct InsertResult : ScanCounts {
 
 /// What makes an insertion give up. The default never does.
 struct InsertLimits {
-  CancelToken cancel;
+  CancelToken cancel;  ///< raised by another thread
   /// What inserting may take at most, bytes, by an upper bound: the nodes and bricks that are new
   /// and the list of changes, while a grid is updated by them.
   std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max();
