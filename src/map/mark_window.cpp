@@ -103,7 +103,7 @@ void MarkWindow::find_unmarked(const Shaft& shaft, SlabRange slabs,
   }
 }
 
-HitVoxel& MarkWindow::mark_hit(VoxelKey key) {
+std::uint32_t MarkWindow::mark_hit(VoxelKey key) {
   const std::uint32_t number = number_part_[0][key.x - least_.x + 1] +
                                number_part_[1][key.y - least_.y + 1] +
                                number_part_[2][key.z - least_.z + 1];
@@ -113,7 +113,7 @@ HitVoxel& MarkWindow::mark_hit(VoxelKey key) {
     hits_.emplace_back();
     hit_numbers_.push_back(number);
   }
-  return hits_[hit_of_[number]];
+  return hit_of_[number];
 }
 
 void MarkWindow::finish() {

@@ -33,8 +33,10 @@ class MarkWindow {
   /// The tile of `least` is the first of tiles[0] x tiles[1] x tiles[2]. Nothing is marked.
   MarkWindow(VoxelKey least, const std::array<int, 3>& tiles);
 
-  /// Marks a voxel of the window as hit; call before all segments.
-  HitVoxel& mark_hit(VoxelKey key);
+  /// Marks a voxel of the window as hit and returns its place in hit_voxels(); call before all
+  /// segments.
+  std::uint32_t mark_hit(VoxelKey key);
+  std::span<HitVoxel> hit_voxels() { return hits_; }
 
   /// Marks what the segment pierces in these slabs within the window as passed.
   void mark_passed(SegmentWalk walk, SlabRange slabs);

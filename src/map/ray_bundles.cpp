@@ -42,6 +42,7 @@ RayBundles::RayBundles(std::span<const Eigen::Vector3d> ends) {
   std::unordered_map<std::uint64_t, std::uint32_t> bundle_of_block;
   starts_.push_back(0);
   std::optional<Block> block;  // of the last run
+  Eigen::AlignedBox3d box;     // of its ends
   for (std::uint32_t i = 0; i < ends.size(); ++i) {
     const Eigen::Vector3i voxel = ends[i].cast<int>();
     if (!block || !block->is_near(voxel)) {
@@ -52,11 +53,14 @@ RayBundles::RayBundles(std::span<const Eigen::Vector3d> ends) {
       if (bundle == bundles) starts_.push_back(0);
       ++starts_[bundle + 1];
       bundle_of_run.push_back(bundle);
+      if (!runs.empty()) runs.back().ends = box;
+      box.setEmpty();
       runs.push_back({i, 0, {}});
     }
     ++runs.back().count;
-    runs.back().ends.extend(ends[i]);
+    box.extend(ends[i]);
   }
+  if (!runs.empty()) runs.back().ends = box;
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   runs_.resize(runs.size());
   std::vector<std::uint32_t> next = starts_;

@@ -5,12 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "map/hit_marking.hpp"
 #include "map/insertion_size.hpp"
 #include "map/map_access.hpp"
 #include "map/mark_window.hpp"
 #include "map/scan_counting.hpp"
 #include "map/scan_marking.hpp"
 #include "map/scan_rays.hpp"
+#include "map/scan_uncertainty.hpp"
 #include "map/scan_windows.hpp"
 #include "map/tile_undo.hpp"
 #include "map/tile_update.hpp"
@@ -21,22 +23,19 @@ namespace nbvopt {
 
 namespace {
 
-void add_hit(const ScanHit& hit, const Scan& scan, MarkWindow& window) {
-  HitVoxel& voxel = window.mark_hit(hit.key);
-  voxel.uncertainty = std::min(voxel.uncertainty, hit.uncertainty);  // Equation (9)
-  if (scan.colours.empty()) return;
-  for (int c = 0; c < 3; ++c) voxel.colour_sum[c] += scan.colours[hit.point][c];
-  ++voxel.coloured_points;
-}
-
 /// Writes a scan into a tree, window by window. Where there is one, it is written in one go once
 /// it is marked; where there are several, what they replace is kept, so that an Error between two
 /// tiles leaves nothing behind.
 class WindowWriter {
  public:
-  WindowWriter(UncertaintyOcTree& tree, const Scan& scan, const InsertLimits& limits,
-               InsertResult& result)
-      : tree_(tree), scan_(scan), limits_(limits), result_(result), undo_(tree) {}
+  WindowWriter(UncertaintyOcTree& tree, const Scan& scan, const ScanUncertainty& uncertainty,
+               const InsertLimits& limits, InsertResult& result)
+      : tree_(tree),
+        scan_(scan),
+        uncertainty_(uncertainty),
+        limits_(limits),
+        result_(result),
+        undo_(tree) {}
 
   void write(const std::vector<WindowWork>& windows) {
     is_undone_ = windows.size() > 1;
@@ -65,7 +64,7 @@ class WindowWriter {
   }
 
   void mark(const WindowWork& work, MarkWindow& window) const {
-    for (const ScanHit& hit : work.rays.hits) add_hit(hit, scan_, window);
+    mark_hits(work.rays.hits, scan_, uncertainty_, window);
     mark_rays(work.rays, limits_.cancel, window);
     check_cancelled();
     window.finish();
@@ -88,6 +87,7 @@ class WindowWriter {
 
   UncertaintyOcTree& tree_;
   const Scan& scan_;
+  const ScanUncertainty& uncertainty_;
   const InsertLimits& limits_;
   InsertResult& result_;
   TileUndo undo_;
@@ -111,7 +111,8 @@ InsertResult insert_scan(UncertaintyMap& map, const Scan& scan, const Transform&
   result.rays_cleared = rays.cleared;
   result.points_ignored =
       rays.counts.points_too_near + rays.counts.points_not_finite + rays.counts.points_off_lattice;
-  WindowWriter(detail::MapAccess::tree(map), scan, limits, result)
+  const ScanUncertainty uncertainty(scan, T_map_sensor, sensor, map.lattice());
+  WindowWriter(detail::MapAccess::tree(map), scan, uncertainty, limits, result)
       .write(scan_windows(std::move(rays)));
   return result;
 }

@@ -14,8 +14,8 @@ namespace {
 using Bundle = std::span<const RayRun>;
 
 /// Rays of a bundle that are walked from end to end before the others: so many of its runs, and so
-/// many of each. A bundle ends in 4 x 4 voxels, so that they are half a voxel apart there.
-constexpr std::uint32_t kSamples = 8;
+/// many of each. A bundle ends in 4 x 4 voxels, so that they are about a voxel apart there.
+constexpr std::uint32_t kSamples = 4;
 
 std::uint32_t sample_step(std::size_t count) {
   return static_cast<std::uint32_t>((count + kSamples - 1) / kSamples);

@@ -1,9 +1,7 @@
 #include "map/scan_rays.hpp"
 
 #include "map/scan_counting.hpp"
-#include "map/scan_normals.hpp"
 #include "nbvopt/core/error.hpp"
-#include "nbvopt/sensor/uncertainty_model.hpp"
 
 namespace nbvopt {
 
@@ -12,7 +10,7 @@ namespace {
 class RayCollector {
  public:
   RayCollector(const Transform& T_map_sensor, const SensorOptions& sensor, const Lattice& lattice)
-      : T_map_sensor_(T_map_sensor), sensor_(sensor), model_(sensor), lattice_(lattice) {
+      : T_map_sensor_(T_map_sensor), sensor_(sensor), lattice_(lattice) {
     if (!T_map_sensor.matrix().allFinite()) {
       throw InputError("scan pose: every number must be finite");
     }
@@ -20,15 +18,13 @@ class RayCollector {
       throw InputError("scan pose: the position lies outside the map's lattice, check its unit");
     }
     rays_.origin = lattice.to_lattice(T_map_sensor.translation());
+    rays_.box.extend(rays_.origin);
   }
 
   void reserve(std::size_t rays) {
     rays_.ends.reserve(rays);
     rays_.hits.reserve(rays);
   }
-
-  /// Of all points, in the sensor frame; none where they do not count.
-  void set_normals(std::vector<Eigen::Vector3f> normals) { normals_ = std::move(normals); }
 
   void add_point(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
     const PointPlace place = place_of(p_sensor_m, sensor_, rays_.counts);
@@ -54,38 +50,34 @@ class RayCollector {
   bool add_clear_ray(const Eigen::Vector3d& direction_sensor) {
     if (sensor_.no_return == NoReturn::ignore) return true;
     const double length = range_m(direction_sensor, sensor_);
-    const Eigen::Vector3d end_map_m =
-        T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length));
-    if (!lattice_.contains(end_map_m)) return false;
-    rays_.ends.push_back(lattice_.to_lattice(end_map_m));
+    if (!add_end(T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length)))) return false;
     ++rays_.cleared;
     return true;
   }
 
   /// False for a point off the lattice.
   bool add_hit(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
-    const Eigen::Vector3d p_map_m = T_map_sensor_ * p_sensor_m;
-    if (!lattice_.contains(p_map_m)) return false;
-    rays_.ends.push_back(lattice_.to_lattice(p_map_m));
-    const VoxelKey key = lattice_.key(p_map_m);
-    const double u = normals_.empty() ? model_.uncertainty(p_sensor_m)
-                                      : model_.uncertainty(p_sensor_m, normal_sensor(point, key));
-    rays_.hits.push_back({key, static_cast<float>(u), point});
+    if (!add_end(T_map_sensor_ * p_sensor_m)) return false;
+    const Eigen::Vector3i voxel = rays_.ends.back().cast<int>();
+    rays_.hits.push_back(
+        {{static_cast<std::uint16_t>(voxel.x()), static_cast<std::uint16_t>(voxel.y()),
+          static_cast<std::uint16_t>(voxel.z())},
+         point});
     return true;
   }
 
-  /// That of the last point added, or of the face by which its ray enters the voxel.
-  Eigen::Vector3d normal_sensor(std::uint32_t point, VoxelKey voxel) const {
-    if (!normals_[point].isZero()) return normals_[point].cast<double>();
-    return T_map_sensor_.linear().transpose() *
-           entered_face_normal(rays_.origin, rays_.ends.back(), voxel);
+  /// False for an end off the lattice.
+  bool add_end(const Eigen::Vector3d& end_map_m) {
+    const Eigen::Vector3d end = lattice_.to_lattice(end_map_m);
+    if (!Lattice::holds(end)) return false;
+    rays_.ends.push_back(end);
+    rays_.box.extend(end);
+    return true;
   }
 
   const Transform& T_map_sensor_;
   const SensorOptions& sensor_;
-  UncertaintyModel model_;
   const Lattice& lattice_;
-  std::vector<Eigen::Vector3f> normals_;
   ScanRays rays_;
 };
 
@@ -95,10 +87,6 @@ ScanRays scan_rays(const Scan& scan, const Transform& T_map_sensor, const Sensor
                    const Lattice& lattice) {
   RayCollector collector(T_map_sensor, sensor, lattice);
   collector.reserve(scan.points_m.size() + scan.no_returns.size());
-  if (sensor.normal_weight > 0.0) {
-    collector.set_normals(
-        scan_normals(scan.points_m, sensor, sensor.horizontal_pixels, sensor.vertical_pixels));
-  }
   for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
     collector.add_point(scan.points_m[i].cast<double>(), static_cast<std::uint32_t>(i));
   }

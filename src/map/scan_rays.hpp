@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -9,10 +10,9 @@
 
 namespace nbvopt {
 
-/// A return within range: the voxel that holds it and its u (Eq. 8).
+/// A return within range, and the voxel that holds it.
 struct ScanHit {
   VoxelKey key;
-  float uncertainty = kUnknownUncertainty;
   std::uint32_t point = 0;  ///< its index in the scan
 };
 
@@ -20,6 +20,7 @@ struct ScanHit {
 struct ScanRays {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> ends;  ///< of returns and of rays that are clear up to D_max
+  Eigen::AlignedBox3d box;            ///< of origin and ends
   std::vector<ScanHit> hits;
   std::uint64_t cleared = 0;
   ScanCounts counts;

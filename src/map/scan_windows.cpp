@@ -30,14 +30,8 @@ constexpr std::array kPacked{PackedPart{0}, PackedPart{16}, PackedPart{32}};
 class WindowSorter {
  public:
   explicit WindowSorter(ScanRays rays) : rays_(std::move(rays)) {
-    Eigen::Vector3d least = rays_.origin;
-    Eigen::Vector3d most = rays_.origin;
-    for (const Eigen::Vector3d& end : rays_.ends) {
-      least = least.cwiseMin(end);
-      most = most.cwiseMax(end);
-    }
-    first_tile_ = (least / kTileSize).cast<int>();
-    last_tile_ = (most / kTileSize).cast<int>();
+    first_tile_ = (rays_.box.min() / kTileSize).cast<int>();
+    last_tile_ = (rays_.box.max() / kTileSize).cast<int>();
   }
 
   std::vector<WindowWork> sorted() && {

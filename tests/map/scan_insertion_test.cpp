@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "map/map_access.hpp"
+#include "map/scan_rays.hpp"
+#include "map/scan_uncertainty.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
@@ -133,6 +135,31 @@ TEST(InsertScan, KeepsTheLeastUncertaintyOfAllPoints) {
     insert(other, scan);
     EXPECT_EQ(other.at(ahead(10)).uncertainty, 0.0F);
     EXPECT_FLOAT_EQ(other.at(ahead(10)).log_odds, kHitLogOdds) << "one hit a scan";
+  }
+}
+
+/// Equation (9) over a wall's points, most of which are passed over by a bound.
+TEST(InsertScan, KeepsTheLeastUncertaintyOfManyPoints) {
+  for (const double normal_weight : {0.0, 0.3}) {
+    SensorOptions sensor;
+    sensor.normal_weight = normal_weight;
+    UncertaintyMap map(0.25);
+    const Scan scan = random_scan(3, 20000);
+    const Transform T_map_sensor = looking_along_x({0.33, -0.21, 0.57});
+    insert_scan(map, scan, T_map_sensor, sensor);
+
+    const ScanUncertainty uncertainty(scan, T_map_sensor, sensor, map.lattice());
+    std::map<std::uint64_t, float> least;
+    for (const ScanHit& hit : scan_rays(scan, T_map_sensor, sensor, map.lattice()).hits) {
+      float& least_u = least.try_emplace(packed(hit.key), 1.0F).first->second;
+      least_u = std::min(least_u, uncertainty.of(hit));
+    }
+    std::map<std::uint64_t, float> kept;
+    for (const auto& [key, record] : records(map)) {
+      if (std::get<VoxelState>(record) == VoxelState::occupied) kept[key] = std::get<float>(record);
+    }
+    EXPECT_EQ(kept, least);
+    EXPECT_GT(least.size(), 300U);
   }
 }
 

@@ -92,7 +92,6 @@ class RandomView {
     rays.hits.push_back(
         {{static_cast<std::uint16_t>(voxel.x()), static_cast<std::uint16_t>(voxel.y()),
           static_cast<std::uint16_t>(voxel.z())},
-         0.5F,
          0});
   }
 

@@ -57,9 +57,11 @@ class Lattice {
   }
 
   /// Whether the point lies on the lattice, which holds 2^16 voxels an axis.
-  bool contains(const Eigen::Vector3d& p_map_m) const {
-    const Eigen::Array3d k = to_lattice(p_map_m).array();
-    return (k >= 0.0).all() && (k < 65536.0).all();
+  bool contains(const Eigen::Vector3d& p_map_m) const { return holds(to_lattice(p_map_m)); }
+
+  /// The same of a point in lattice coordinates.
+  static bool holds(const Eigen::Vector3d& p) {
+    return (p.array() >= 0.0).all() && (p.array() < 65536.0).all();
   }
 
   /// The voxel that holds the point; the nearest one when it lies off the lattice.
