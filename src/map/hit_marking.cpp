@@ -4,9 +4,13 @@
 #include <limits>
 #include <vector>
 
+#include "map/parts.hpp"
+
 namespace nbvopt {
 
 namespace {
+
+constexpr std::size_t kHitsAPart = 4096;
 
 /// Where the hits stand in window.hit_voxels().
 std::vector<std::uint32_t> marked_places(std::span<const ScanHit> hits, MarkWindow& window) {
@@ -34,7 +38,10 @@ void add_colours(std::span<const ScanHit> hits, std::span<const std::uint32_t> p
 void add_uncertainties(std::span<const ScanHit> hits, std::span<const std::uint32_t> places,
                        const ScanUncertainty& uncertainty, std::span<HitVoxel> voxels) {
   std::vector<float> bounds(hits.size());
-  uncertainty.bound(hits, bounds);
+  for_each_part(hits.size(), kHitsAPart, [&](std::size_t first, std::size_t last) {
+    uncertainty.bound(hits.subspan(first, last - first),
+                      std::span(bounds).subspan(first, last - first));
+  });
 
   struct Least {
     float bound = std::numeric_limits<float>::infinity();

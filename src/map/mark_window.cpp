@@ -1,6 +1,7 @@
 #include "map/mark_window.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 namespace nbvopt {
@@ -69,7 +70,7 @@ void MarkWindow::mark_passed(SegmentWalk walk, SlabRange slabs) {
 }
 
 void MarkWindow::find_unmarked(const Shaft& shaft, SlabRange slabs,
-                               std::vector<SlabRange>& unmarked) const {
+                               std::vector<SlabRange>& unmarked) {
   const std::array<int, 3> least{least_.x, least_.y, least_.z};
   const auto inside = [&](int axis, int key) {
     return std::clamp(key, least[axis], least[axis] + tiles_[axis] * kTileSize - 1);
@@ -80,6 +81,9 @@ void MarkWindow::find_unmarked(const Shaft& shaft, SlabRange slabs,
   const int c = (a + 2) % 3;
   const int first = std::max({slabs.first, shaft.slabs().first, least[a]});
   const int last = std::min({slabs.last, shaft.slabs().last, least[a] + tiles_[a] * kTileSize - 1});
+  const auto mark = [marks = content_[0].data()](std::uint32_t number) {
+    return std::atomic_ref(marks[number]).load(std::memory_order_relaxed);
+  };
   const auto is_marked = [&](int slab) {
     const Shaft::Cells cells = shaft.cells(slab);
     const int first_b = inside(b, cells.first_b);
@@ -88,7 +92,7 @@ void MarkWindow::find_unmarked(const Shaft& shaft, SlabRange slabs,
     for (int i = inside(c, cells.first_c); i <= last_c; ++i) {
       const std::uint32_t number_ac = parts[a][slab] + parts[c][i];
       for (int j = first_b; j <= last_b; ++j) {
-        if (content_[0][number_ac + parts[b][j]] == kUntouched) return false;
+        if (mark(number_ac + parts[b][j]) == kUntouched) return false;
       }
     }
     return true;

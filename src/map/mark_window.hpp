@@ -38,11 +38,12 @@ class MarkWindow {
   std::uint32_t mark_hit(VoxelKey key);
   std::span<HitVoxel> hit_voxels() { return hits_; }
 
-  /// Marks what the segment pierces in these slabs within the window as passed.
+  /// Marks what the segment pierces in these slabs within the window as passed. Many threads may do
+  /// so while others look for what is not marked.
   void mark_passed(SegmentWalk walk, SlabRange slabs);
 
   /// Appends those of the slabs in which some voxel that the shaft touches is not marked.
-  void find_unmarked(const Shaft& shaft, SlabRange slabs, std::vector<SlabRange>& unmarked) const;
+  void find_unmarked(const Shaft& shaft, SlabRange slabs, std::vector<SlabRange>& unmarked);
 
   /// Lets hits win over passed, and makes content() ready; call when all is marked.
   void finish();

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "map/parts.hpp"
 #include "map/ray_bundles.hpp"
 #include "map/segment_walk.hpp"
 #include "map/shaft.hpp"
@@ -16,6 +17,8 @@ using Bundle = std::span<const RayRun>;
 /// Rays of a bundle that are walked from end to end before the others: so many of its runs, and so
 /// many of each. A bundle ends in 4 x 4 voxels, so that they are about a voxel apart there.
 constexpr std::uint32_t kSamples = 4;
+
+constexpr std::size_t kBundlesAPart = 16;
 
 std::uint32_t sample_step(std::size_t count) {
   return static_cast<std::uint32_t>((count + kSamples - 1) / kSamples);
@@ -83,14 +86,17 @@ class BundleMarker {
 }  // namespace
 
 void mark_rays(const ScanRays& rays, const CancelToken& cancel, MarkWindow& window) {
-  const RayBundles bundles(rays.ends);
-  BundleMarker marker(rays, window);
-  for (std::size_t i = 0; i < bundles.size() && !cancel.is_cancelled(); ++i) {
-    marker.mark_samples(bundles[i]);
-  }
-  for (std::size_t i = 0; i < bundles.size() && !cancel.is_cancelled(); ++i) {
-    marker.mark_others(bundles[i]);
-  }
+  const RayBundles bundles(rays.ends.runs());
+  const auto for_each_bundle = [&](void (BundleMarker::*mark)(Bundle)) {
+    for_each_part(bundles.size(), kBundlesAPart, [&](std::size_t first, std::size_t last) {
+      BundleMarker marker(rays, window);
+      for (std::size_t i = first; i < last && !cancel.is_cancelled(); ++i) {
+        (marker.*mark)(bundles[i]);
+      }
+    });
+  };
+  for_each_bundle(&BundleMarker::mark_samples);
+  for_each_bundle(&BundleMarker::mark_others);
 }
 
 }  // namespace nbvopt

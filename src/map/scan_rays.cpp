@@ -18,7 +18,6 @@ class RayCollector {
       throw InputError("scan pose: the position lies outside the map's lattice, check its unit");
     }
     rays_.origin = lattice.to_lattice(T_map_sensor.translation());
-    rays_.box.extend(rays_.origin);
   }
 
   void reserve(std::size_t rays) {
@@ -50,15 +49,18 @@ class RayCollector {
   bool add_clear_ray(const Eigen::Vector3d& direction_sensor) {
     if (sensor_.no_return == NoReturn::ignore) return true;
     const double length = range_m(direction_sensor, sensor_);
-    if (!add_end(T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length)))) return false;
+    const Eigen::Vector3d end_map_m =
+        T_map_sensor_ * (direction_sensor * (sensor_.range_max_m / length));
+    if (!add_end(lattice_.to_lattice(end_map_m))) return false;
     ++rays_.cleared;
     return true;
   }
 
   /// False for a point off the lattice.
   bool add_hit(const Eigen::Vector3d& p_sensor_m, std::uint32_t point) {
-    if (!add_end(T_map_sensor_ * p_sensor_m)) return false;
-    const Eigen::Vector3i voxel = rays_.ends.back().cast<int>();
+    const Eigen::Vector3d end = lattice_.to_lattice(T_map_sensor_ * p_sensor_m);
+    if (!add_end(end)) return false;
+    const Eigen::Vector3i voxel = end.cast<int>();
     rays_.hits.push_back(
         {{static_cast<std::uint16_t>(voxel.x()), static_cast<std::uint16_t>(voxel.y()),
           static_cast<std::uint16_t>(voxel.z())},
@@ -67,11 +69,9 @@ class RayCollector {
   }
 
   /// False for an end off the lattice.
-  bool add_end(const Eigen::Vector3d& end_map_m) {
-    const Eigen::Vector3d end = lattice_.to_lattice(end_map_m);
+  bool add_end(const Eigen::Vector3d& end) {
     if (!Lattice::holds(end)) return false;
-    rays_.ends.push_back(end);
-    rays_.box.extend(end);
+    rays_.ends.add(end);
     return true;
   }
 

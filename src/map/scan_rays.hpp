@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
+#include "map/ray_ends.hpp"
 #include "nbvopt/map/scan.hpp"
 
 namespace nbvopt {
@@ -19,8 +19,7 @@ struct ScanHit {
 /// In lattice coordinates, where voxel k spans [k, k + 1).
 struct ScanRays {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> ends;  ///< of returns and of rays that are clear up to D_max
-  Eigen::AlignedBox3d box;            ///< of origin and ends
+  RayEnds ends;  ///< of returns and of rays that are clear up to D_max
   std::vector<ScanHit> hits;
   std::uint64_t cleared = 0;
   ScanCounts counts;

@@ -30,8 +30,9 @@ constexpr std::array kPacked{PackedPart{0}, PackedPart{16}, PackedPart{32}};
 class WindowSorter {
  public:
   explicit WindowSorter(ScanRays rays) : rays_(std::move(rays)) {
-    first_tile_ = (rays_.box.min() / kTileSize).cast<int>();
-    last_tile_ = (rays_.box.max() / kTileSize).cast<int>();
+    const Eigen::AlignedBox3d box = rays_.ends.box().extend(rays_.origin);
+    first_tile_ = (box.min() / kTileSize).cast<int>();
+    last_tile_ = (box.max() / kTileSize).cast<int>();
   }
 
   std::vector<WindowWork> sorted() && {
@@ -40,7 +41,7 @@ class WindowSorter {
       work_.front().rays = std::move(rays_);
       return std::move(work_);
     }
-    for (const Eigen::Vector3d& end : rays_.ends) add_ray(end);
+    for (std::size_t ray = 0; ray < rays_.ends.size(); ++ray) add_ray(rays_.ends[ray]);
     for (const ScanHit& hit : rays_.hits) add_hit(hit);
     std::ranges::sort(work_, {}, [](const WindowWork& work) { return packed(work.least); });
     return std::move(work_);
@@ -61,7 +62,7 @@ class WindowSorter {
     const SegmentWalk walk(in_windows(rays_.origin), in_windows(end));
     std::uint64_t recent = kNone;
     walk.for_each_cell(kPacked, [&](std::uint64_t window) {
-      if (window != recent) at(window).rays.ends.push_back(end);
+      if (window != recent) at(window).rays.ends.add(end);
       recent = window;
     });
   }

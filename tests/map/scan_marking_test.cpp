@@ -1,6 +1,7 @@
 #include "map/scan_marking.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <random>
@@ -37,8 +38,8 @@ std::vector<std::uint8_t> marks_of(const ScanRays& rays) {
 std::vector<std::uint8_t> marks_ray_by_ray(const ScanRays& rays) {
   MarkWindow window = empty_window();
   for (const ScanHit& hit : rays.hits) window.mark_hit(hit.key);
-  for (const Eigen::Vector3d& end : rays.ends) {
-    window.mark_passed(SegmentWalk(rays.origin, end), kAllSlabs);
+  for (std::size_t ray = 0; ray < rays.ends.size(); ++ray) {
+    window.mark_passed(SegmentWalk(rays.origin, rays.ends[ray]), kAllSlabs);
   }
   return marks(window);
 }
@@ -80,12 +81,18 @@ class RandomView {
     return rays;
   }
 
-  void shuffle(ScanRays& rays) { std::ranges::shuffle(rays.ends, random_); }
+  void shuffle(ScanRays& rays) {
+    std::vector<Eigen::Vector3d> ends;
+    for (std::size_t ray = 0; ray < rays.ends.size(); ++ray) ends.push_back(rays.ends[ray]);
+    std::ranges::shuffle(ends, random_);
+    rays.ends = {};
+    for (const Eigen::Vector3d& end : ends) rays.ends.add(end);
+  }
 
  private:
   static void add(ScanRays& rays, const Eigen::Vector3d& direction, double length, double range) {
     const Eigen::Vector3d end = rays.origin + direction * std::min(length, range);
-    rays.ends.push_back(end);
+    rays.ends.add(end);
     const Eigen::Vector3i voxel = end.cast<int>();
     const bool is_inside = ((voxel.array() >= kLeast) && (voxel.array() < kLeast + kSize)).all();
     if (length >= range || !is_inside) return;
@@ -110,6 +117,15 @@ TEST(MarkRays, MarksWhatTheRaysPassOneByOne) {
   }
 }
 
+TEST(MarkRays, DoesNotDependOnTheNumberOfThreads) {
+  const ScanRays rays = RandomView(11).rays(300, 0.4 * kSize, 0.1, 0.01);
+  const auto marks_by = [&](int threads) {
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return marks_of(rays); });
+  };
+  EXPECT_EQ(marks_by(1), marks_by(2));
+}
+
 TEST(MarkRays, DoesNotDependOnTheOrderOfTheRays) {
   RandomView view(7);
   ScanRays rays = view.rays(100, 0.4 * kSize, 0.0, 0.02);
@@ -129,7 +145,7 @@ TEST(MarkRays, MarksTheSameOnWholeNumbers) {
         (Eigen::Vector3d::Constant(kLeast) + view.point(0.0, 150.0)).array().floor();
     for (double x = 0.0; x < 12.0; x += 0.25) {
       for (double y = 0.0; y < 12.0; y += 0.25) {
-        rays.ends.emplace_back(corner + Eigen::Vector3d(x, y, seed % 3 == 0 ? 0.0 : x));
+        rays.ends.add(corner + Eigen::Vector3d(x, y, seed % 3 == 0 ? 0.0 : x));
       }
     }
     EXPECT_EQ(marks_of(rays), marks_ray_by_ray(rays)) << "seed " << seed;
