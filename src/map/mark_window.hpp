@@ -14,7 +14,7 @@
 namespace nbvopt {
 
 /// What a scan says of a voxel; one bit each, so that a block's content is the OR of its voxels'.
-enum Mark : std::uint8_t { kUntouched = 1, kPassed = 2, kHit = 4 };
+enum Mark : std::uint8_t { kUntouched = 1, kPassed = 2, kHit = 4 };  // NOLINT: bits
 
 /// All that one scan saw of one voxel that it hit.
 struct HitVoxel {
