@@ -23,7 +23,6 @@ inline constexpr auto kEnumNames<SimdLevel> = std::to_array<EnumName<SimdLevel>>
 
 namespace {
 
-using detail::brick_at;
 using detail::BrickBox;
 using detail::BrickKey;
 
