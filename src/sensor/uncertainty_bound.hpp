@@ -8,7 +8,7 @@
 namespace nbvopt {
 
 /// A bound of UncertaintyModel::uncertainty(), normals or not, from below. Without normals it is
-/// mostly less than 1e-3 under it, in a tenth of the time: it takes no decision and calls nothing.
+/// mostly less than 1e-3 under it, in a fifth of the time: it takes no decision and calls nothing.
 class UncertaintyBound {
  public:
   explicit UncertaintyBound(const UncertaintyModel& model)
