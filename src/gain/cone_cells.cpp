@@ -73,6 +73,14 @@ Cone cone_of(const ConeGrid& grid, const std::array<Eigen::Vector3d, 4>& corners
 
 }  // namespace
 
+ConeCells::Cell::Cell(const ConeView& view)
+    : value_(static_cast<std::uint16_t>(
+          std::ceil((view.value + kValueRounding + 1.0) / double{kValueStep}))),
+      clear_(
+          static_cast<std::uint16_t>(std::min(view.clear / kClearStep, double{kSettledBit - 1}))) {
+  if (view.is_settled) clear_ |= kSettledBit;
+}
+
 ConeCells::ConeCells(const CellFrame& frame, const CellBox& box, const Eigen::Vector3d& origin_min,
                      const Eigen::Vector3d& origin_max)
     : frame_(frame),
@@ -140,38 +148,34 @@ void ConeCells::fill_tile(int azimuth, int elevation, Cell* cells, const ConeCel
       Cell& cell = cells[j * kTile + i];
       const Cell* known =
           coarser != nullptr ? coarser->find((azimuth + i) >> 1, (elevation + j) >> 1) : nullptr;
-      if (known != nullptr && known->clear < 0.0F) {
+      if (known != nullptr && known->is_settled()) {
         cell = *known;
         continue;
       }
       Cone cone = cone_of(grid, {below[i], below[i + 1], above[i], above[i + 1]}, frame_.cell_rad,
                           origin_min_, origin_max_);
-      if (known != nullptr) cone.clear = known->clear;
-      const ConeView view = march(cone);
+      if (known != nullptr) cone.clear = known->clear();
+      cell = Cell(march(cone));
       ++cones_;
-      cell.value = static_cast<float>(view.value + kValueRounding);
-      const float clear = std::nextafter(static_cast<float>(view.clear), 0.0F);
-      cell.clear = view.is_settled ? -1.0F - clear : clear;
     }
   }
 }
 
-std::vector<float> ConeCells::windows() const {
-  const auto wide = static_cast<std::size_t>(box_.wide());
-  const auto high = static_cast<std::size_t>(box_.high());
+std::vector<float> ConeCells::windows(const CellBox& part) const {
+  const auto wide = static_cast<std::size_t>(part.wide());
+  const auto high = static_cast<std::size_t>(part.high());
   std::vector<float> window(wide * high + kReadAhead, kNotFilled);
-  for (int y = 0; y < tiles_high_; ++y) {
-    for (int x = 0; x < tiles_wide_; ++x) {
-      const std::int32_t tile = tile_[static_cast<std::size_t>(y * tiles_wide_ + x)];
-      if (tile < 0) continue;
-      const Cell* cells = &cells_[static_cast<std::size_t>(tile) * kTileCells];
-      const int rows = std::min(kTile, box_.high() - y * kTile);
-      const int columns = std::min(kTile, box_.wide() - x * kTile);
-      for (int j = 0; j < rows; ++j) {
-        float* row = &window[static_cast<std::size_t>(y * kTile + j) * wide +
-                             static_cast<std::size_t>(x * kTile)];
-        for (int i = 0; i < columns; ++i) row[i] = cells[j * kTile + i].value;
+  for (int elevation = part.elevation_min; elevation <= part.elevation_max; ++elevation) {
+    float* row = &window[static_cast<std::size_t>(elevation - part.elevation_min) * wide];
+    for (int azimuth = part.azimuth_min; azimuth <= part.azimuth_max;) {
+      // Up to the end of the tile.
+      const int end =
+          std::min(part.azimuth_max + 1,
+                   (((azimuth - box_.azimuth_min) >> kTileBits) + 1) * kTile + box_.azimuth_min);
+      if (const Cell* cell = find(azimuth, elevation)) {
+        for (int i = azimuth; i < end; ++i) row[i - part.azimuth_min] = (cell++)->value();
       }
+      azimuth = end;
     }
   }
   for (std::size_t j = 0; j < high; ++j) {

@@ -42,11 +42,10 @@ class ConeCells {
   bool fill(const CellBox& cells, const ConeCells* coarser, const ConeGrid& grid,
             const ConeMarch& march, const StopRule& stop);
 
-  /// The largest value over 2 x 2 cells from every cell of the box on, row by row, box().wide() in
-  /// a row, and some more numbers behind the last, so that vectors may be read from its end.
-  std::vector<float> windows() const;
+  /// The largest value over 2 x 2 cells from every cell of a part of the box on, row by row, and
+  /// some more numbers behind the last, so that vectors may be read from its end.
+  std::vector<float> windows(const CellBox& part) const;
 
-  const CellBox& box() const { return box_; }
   std::int64_t cones() const { return cones_; }
   std::size_t memory_bytes() const { return cells_.capacity() * sizeof(Cell); }
 
@@ -55,12 +54,25 @@ class ConeCells {
   static constexpr int kTile = 1 << kTileBits;
   static constexpr int kTileCells = kTile * kTile;
 
-  struct Cell {
-    float value;  ///< no ray brings more before the angle's part is taken off
-    float clear;  ///< how far nothing can be hit, voxels; negative, less 1: the cell is settled
+  /// A view of a cone in four bytes, values rounded up, free lengths down.
+  class Cell {
+   public:
+    Cell() = default;
+    explicit Cell(const ConeView& view);
+
+    float value() const { return value_ * kValueStep - 1.0F; }
+    double clear() const { return (clear_ & ~kSettledBit) * kClearStep; }
+    bool is_settled() const { return (clear_ & kSettledBit) != 0; }
+
+   private:
+    static constexpr float kValueStep = 0x1p-14F;
+    static constexpr double kClearStep = 0x1p-4;  // voxels
+    static constexpr std::uint16_t kSettledBit = 0x8000;
+
+    std::uint16_t value_ = 0;  ///< no ray brings more before the angle's part is taken off
+    std::uint16_t clear_ = 0;  ///< how far nothing can be hit
   };
 
-  std::int32_t tile_of(int azimuth, int elevation) const;
   const Cell* find(int azimuth, int elevation) const;
   void fill_tile(int azimuth, int elevation, Cell* cells, const ConeCells* coarser,
                  const ConeGrid& grid, const ConeMarch& march);

@@ -78,6 +78,15 @@ Span depths_at_plane(double plane, double origin_min, double origin_max, double 
   return crossed.min <= crossed.max ? crossed : depth;
 }
 
+/// How far along the main axis rays may have gone when they leave a voxel by its sides across
+/// another axis; infinite where some never do.
+double farthest_exit(int voxel, double origin_min, double origin_max, double slope_min,
+                     double slope_max) {
+  if (slope_min > 0.0) return (voxel + 1 - origin_min + kRounding) / slope_min;
+  if (slope_max < 0.0) return (origin_max - voxel + kRounding) / -slope_max;
+  return std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 /// What a cone touches between two planes of the grid across its main axis.
@@ -197,10 +206,17 @@ void ConeMarch::take_hits(const Cone& cone, const Layer& layer, std::uint64_t hi
           to > far_min_ ? ConeView::kNothing : u_old - largest_distance_part(from, to);
       values.min = std::min(values.min, least);
     };
-    // Rays may begin inside, or meet a surface that the map does not show, anywhere inside.
-    if (layer.depth.min * cone.stretch_min <= near_max_ ||
-        (sees_through_unknown_ && !is_occupied)) {
-      take(layer.depth);
+    const bool is_near = layer.depth.min * cone.stretch_min <= near_max_;
+    if (is_near || (sees_through_unknown_ && !is_occupied)) {
+      // Rays may begin inside, or meet a surface that the map does not show, anywhere inside.
+      const double leaves = std::min({layer.depth.max,
+                                      farthest_exit(row, cone.origin_min[1], cone.origin_max[1],
+                                                    cone.row_slope_min, cone.row_slope_max),
+                                      farthest_exit(column, cone.origin_min[2], cone.origin_max[2],
+                                                    cone.column_slope_min, cone.column_slope_max)});
+      if (leaves * cone.stretch_max >= near_min_) {
+        take({layer.depth.min, std::max(layer.depth.min, leaves)});
+      }
       continue;
     }
     if ((in_front >> bit & 1) != 0) take(layer.depth_before);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "gain/angle_part.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
@@ -19,12 +20,21 @@ constexpr double kSlabPerCell_m_rad = 4.0;
 /// A cell is then a fortieth of a ray's spacing.
 constexpr int kDeepestLevel = 7;
 
+constexpr std::size_t kMostCellBytes = std::size_t{256} << 20;
+
 /// Of directions, cells: they are kept in single precision.
 constexpr float kCellRounding = 2e-3F;
 /// Of places of the camera, metres.
 constexpr double kPlaceRounding_m = 1e-9;
 
 int cell_of(double place) { return static_cast<int>(std::floor(place)); }
+
+CellBox united(const CellBox& a, const CellBox& b) {
+  return {.azimuth_min = std::min(a.azimuth_min, b.azimuth_min),
+          .azimuth_max = std::max(a.azimuth_max, b.azimuth_max),
+          .elevation_min = std::min(a.elevation_min, b.elevation_min),
+          .elevation_max = std::max(a.elevation_max, b.elevation_max)};
+}
 
 }  // namespace
 
@@ -83,8 +93,8 @@ std::vector<BoundBlock> GainBound::cut(int level, const std::array<int, 3>& firs
         block.first = {pan, tilt, height};
         block.pans = std::min(block_bins_, end[0] - pan);
         block.tilts = std::min(block_bins_, end[1] - tilt);
-        block.bounds.resize(static_cast<std::size_t>(block.pans) *
-                            static_cast<std::size_t>(block.tilts));
+        block.pan_end = block.pans;
+        block.tilt_end = block.tilts;
         blocks.push_back(std::move(block));
       }
     }
@@ -98,14 +108,38 @@ std::vector<BoundBlock> GainBound::roots() const {
   for (const float part : angle_part_) most += kUnknownUncertainty - part;
   std::vector<BoundBlock> blocks = cut(0, {0, 0, 0}, {bins(0, 0), bins(1, 0), bins(2, 0)});
   for (BoundBlock& block : blocks) {
-    std::fill(block.bounds.begin(), block.bounds.end(),
-              std::nextafter(static_cast<float>(most), std::numeric_limits<float>::infinity()));
+    block.bounds.assign(
+        static_cast<std::size_t>(block.pans) * static_cast<std::size_t>(block.tilts),
+        std::nextafter(static_cast<float>(most), std::numeric_limits<float>::infinity()));
   }
   return blocks;
 }
 
-std::vector<BoundBlock> GainBound::children(const BoundBlock& block) const {
-  if (block.level >= kDeepestLevel) return {};
+/// The bins of a block that are worth a closer look: by row the first and the last of them.
+struct GainBound::Alive {
+  Alive(const BoundBlock& block, float worth) {
+    for (int t = block.tilt_begin; t < block.tilt_end; ++t) {
+      const float* bounds = block.row(t) - block.pan_begin;
+      int begin = block.pan_begin;
+      int end = block.pan_end;
+      while (begin < end && bounds[begin] <= worth) ++begin;
+      while (end > begin && bounds[end - 1] <= worth) --end;
+      if (begin == end) continue;
+      rows.push_back({t, begin, end});
+      pan_begin = std::min(pan_begin, begin);
+      pan_end = std::max(pan_end, end);
+    }
+  }
+  struct Row {
+    int tilt, begin, end;
+  };
+  std::vector<Row> rows;
+  int pan_begin = std::numeric_limits<int>::max(), pan_end = 0;
+};
+
+std::vector<BoundBlock> GainBound::children(const BoundBlock& block, float worth) const {
+  const Alive alive(block, worth);
+  if (block.level >= kDeepestLevel || alive.rows.empty()) return {};
   const int level = block.level + 1;
   const std::array<int, 3> counts{block.pans, block.tilts, 1};
   std::array<int, 3> first{};
@@ -114,18 +148,29 @@ std::vector<BoundBlock> GainBound::children(const BoundBlock& block) const {
     first[j] = 2 * block.first[j];
     end[j] = std::min(2 * (block.first[j] + counts[j]), bins(j, level));
   }
+  const auto known =
+      cells_.find(BlockKey{block.level, block.first[0], block.first[1], block.first[2]});
   std::vector<BoundBlock> blocks = cut(level, first, end);
   for (BoundBlock& child : blocks) {
-    child.cells = block.cells;
-    for (int t = 0; t < child.tilts; ++t) {
-      const int tilt = (child.first[1] + t) / 2 - block.first[1];
-      for (int p = 0; p < child.pans; ++p) {
-        const int pan = (child.first[0] + p) / 2 - block.first[0];
-        child.bounds[static_cast<std::size_t>(t * child.pans + p)] =
-            block.bounds[static_cast<std::size_t>(tilt * block.pans + pan)];
-      }
+    if (known != cells_.end()) child.coarser = known->second;
+    // From the child's bins to its parent's, and back.
+    const int pan_shift = child.first[0] - first[0];
+    const int tilt_shift = child.first[1] - first[1];
+    child.pan_begin = std::clamp(2 * alive.pan_begin - pan_shift, 0, child.pans);
+    child.pan_end = std::clamp(2 * alive.pan_end - pan_shift, 0, child.pans);
+    child.tilt_begin = std::clamp(2 * alive.rows.front().tilt - tilt_shift, 0, child.tilts);
+    child.tilt_end = std::clamp(2 * (alive.rows.back().tilt + 1) - tilt_shift, 0, child.tilts);
+    child.bounds.resize(static_cast<std::size_t>(child.pan_end - child.pan_begin) *
+                        static_cast<std::size_t>(child.tilt_end - child.tilt_begin));
+    if (child.bounds.empty()) continue;
+    for (int t = child.tilt_begin; t < child.tilt_end; ++t) {
+      const float* parents = block.row((t + tilt_shift) / 2) - block.pan_begin;
+      float* bounds = child.row(t) - child.pan_begin;
+      for (int p = child.pan_begin; p < child.pan_end; ++p)
+        bounds[p] = parents[(p + pan_shift) / 2];
     }
   }
+  std::erase_if(blocks, [](const BoundBlock& child) { return child.bounds.empty(); });
   return blocks;
 }
 
@@ -229,14 +274,12 @@ GainBound::RayRanges GainBound::make_ranges(double tilt_min, double tilt_max,
 }
 
 const GainBound::RayRanges& GainBound::ranges_of(int level, int tilt) {
-  if (level != ranges_level_) ranges_.clear();
-  ranges_level_ = level;
-  const auto found = ranges_.find(tilt);
+  const auto found = ranges_.find({level, tilt});
   if (found != ranges_.end()) return found->second;
   const double cell = cell_rad(level);
   const double from_rad = box_.min[1] + cell * tilt;
   const double to_rad = std::clamp(from_rad + cell, from_rad, std::max(from_rad, box_.max[1]));
-  return ranges_.emplace(tilt, make_ranges(from_rad, to_rad, cell)).first->second;
+  return ranges_.emplace(std::pair(level, tilt), make_ranges(from_rad, to_rad, cell)).first->second;
 }
 
 RayWindows GainBound::windows_of(const RayRanges& ranges,
@@ -265,23 +308,31 @@ RayWindows GainBound::windows_of(const RayRanges& ranges,
   return windows;
 }
 
-/// The bins of a block that are worth a closer look: by row the first and the last of them.
-struct GainBound::Alive {
-  Alive(const BoundBlock& block, float worth) {
-    for (int t = 0; t < block.tilts; ++t) {
-      const float* row = &block.bounds[static_cast<std::size_t>(t * block.pans)];
-      int begin = 0;
-      int end = block.pans;
-      while (begin < end && row[begin] <= worth) ++begin;
-      while (end > begin && row[end - 1] <= worth) --end;
-      if (begin < end) rows.push_back({t, begin, end});
-    }
-  }
-  struct Row {
-    int tilt, begin, end;
-  };
-  std::vector<Row> rows;
-};
+CellBox GainBound::seen_from(const BoundBlock& block, int tilt, int begin, int end,
+                             const std::pair<double, double>& turn_cells) {
+  // Bins and cells are counted from the same pan.
+  const RayRanges& ranges = ranges_of(block.level, block.first[1] + tilt);
+  return {
+      .azimuth_min = block.first[0] + begin + cell_of(ranges.least_azimuth + turn_cells.first) - 1,
+      .azimuth_max = block.first[0] + end + cell_of(ranges.largest_azimuth + turn_cells.second) + 2,
+      .elevation_min = cell_of(ranges.least_elevation) - 1,
+      .elevation_max = cell_of(ranges.largest_elevation) + 2};
+}
+
+ConeCells& GainBound::cells_of(const BoundBlock& block,
+                               const std::pair<double, double>& turn_cells) {
+  std::shared_ptr<ConeCells>& cells =
+      cells_[{block.level, block.first[0], block.first[1], block.first[2]}];
+  if (cells) return *cells;
+  // Rays go highest, lowest and farthest aside at the ends of the tilts.
+  const CellBox all = united(seen_from(block, 0, 0, block.pans, turn_cells),
+                             seen_from(block, block.tilts - 1, 0, block.pans, turn_cells));
+  const CellFrame frame{mast_.T_map_base(0.0).linear(), box_.min[0], cell_rad(block.level)};
+  const auto [low_m, high_m] = origins_m(box_of(block));
+  cells = std::make_shared<ConeCells>(frame, all, lattice_.to_lattice(low_m) - cones_grid_.corner(),
+                                      lattice_.to_lattice(high_m) - cones_grid_.corner());
+  return *cells;
+}
 
 bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
   const Alive alive(block, worth);
@@ -290,40 +341,20 @@ bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
   const auto [turn_min_rad, turn_max_rad] = turns_rad(box_of(block));
   const std::pair<double, double> turn_cells{turn_min_rad / cell, turn_max_rad / cell};
 
-  // Bins and cells are counted from the same pan.
-  const auto seen_from = [&](const Alive::Row& row) {
-    const RayRanges& ranges = ranges_of(block.level, block.first[1] + row.tilt);
-    CellBox cells;
-    cells.azimuth_min =
-        block.first[0] + row.begin + cell_of(ranges.least_azimuth + turn_cells.first) - 1;
-    cells.azimuth_max =
-        block.first[0] + row.end + cell_of(ranges.largest_azimuth + turn_cells.second) + 2;
-    cells.elevation_min = cell_of(ranges.least_elevation) - 1;
-    cells.elevation_max = cell_of(ranges.largest_elevation) + 2;
-    return cells;
-  };
-  CellBox all = seen_from(alive.rows.front());
+  ConeCells& cells = cells_of(block, turn_cells);
+  std::optional<CellBox> part;
   for (const Alive::Row& row : alive.rows) {
-    const CellBox seen = seen_from(row);
-    all.azimuth_min = std::min(all.azimuth_min, seen.azimuth_min);
-    all.azimuth_max = std::max(all.azimuth_max, seen.azimuth_max);
-    all.elevation_min = std::min(all.elevation_min, seen.elevation_min);
-    all.elevation_max = std::max(all.elevation_max, seen.elevation_max);
+    const CellBox seen = seen_from(block, row.tilt, row.begin, row.end, turn_cells);
+    part = part ? united(*part, seen) : seen;
+    const std::int64_t cones = cells.cones();
+    const std::size_t bytes = cells.memory_bytes();
+    const bool is_filled = cells.fill(seen, block.coarser.get(), cones_grid_, march_, stop);
+    cones_ += cells.cones() - cones;
+    cell_bytes_ += cells.memory_bytes() - bytes;
+    if (!is_filled || cones_ >= stop.max_evaluations || cell_bytes_ > kMostCellBytes) return false;
   }
-  const CellFrame frame{mast_.T_map_base(0.0).linear(), box_.min[0], cell};
-  const auto [low_m, high_m] = origins_m(box_of(block));
-  auto cells =
-      std::make_shared<ConeCells>(frame, all, lattice_.to_lattice(low_m) - cones_grid_.corner(),
-                                  lattice_.to_lattice(high_m) - cones_grid_.corner());
-  for (const Alive::Row& row : alive.rows) {
-    const std::int64_t before = cells->cones();
-    if (!cells->fill(seen_from(row), block.cells.get(), cones_grid_, march_, stop)) return false;
-    cones_ += cells->cones() - before;
-    if (cones_ >= stop.max_evaluations) return false;
-  }
-  block.cells = cells;
 
-  const std::vector<float> windows = cells->windows();
+  const std::vector<float> windows = cells.windows(*part);
   // Sums of single precision are off by no more.
   const float rounding =
       1.0F + std::numeric_limits<float>::epsilon() * static_cast<float>(angle_part_.size());
@@ -331,9 +362,9 @@ bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
   for (const Alive::Row& row : alive.rows) {
     if (stop.is_expired() || stop.cancel.is_cancelled()) return false;
     const RayWindows rays =
-        windows_of(ranges_of(block.level, block.first[1] + row.tilt), turn_cells, all);
+        windows_of(ranges_of(block.level, block.first[1] + row.tilt), turn_cells, *part);
     bound_row(rays, windows.data() + block.first[0], row.begin, row.end, sums.data());
-    float* bounds = &block.bounds[static_cast<std::size_t>(row.tilt * block.pans)];
+    float* bounds = block.row(row.tilt) - block.pan_begin;
     for (int p = row.begin; p < row.end; ++p) {
       bounds[p] = std::min(bounds[p], sums[static_cast<std::size_t>(p - row.begin)] * rounding);
     }

@@ -14,8 +14,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -35,14 +35,22 @@ struct BoundBlock {
   int level = 0;
   std::array<int, 3> first{};  ///< by joint, counted from the box's least corner
   int pans = 0, tilts = 0;     ///< bins
+  /// The bins that have a bound, counted from the block's first: no others need a look.
+  int pan_begin = 0, pan_end = 0, tilt_begin = 0, tilt_end = 0;
   /// No view of a bin gains more; bins of pan lie side by side.
   std::vector<float> bounds;
-  std::shared_ptr<const ConeCells> cells;  ///< of this block, or of its parent before tighten()
+  std::shared_ptr<const ConeCells> coarser;  ///< the cells of its parent
 
+  /// Of a row's bin pan_begin.
+  float* row(int tilt) {
+    return &bounds[static_cast<std::size_t>((tilt - tilt_begin) * (pan_end - pan_begin))];
+  }
+  const float* row(int tilt) const { return const_cast<BoundBlock*>(this)->row(tilt); }
   float largest() const;
 };
 
-/// Makes and tightens blocks. Not thread-safe: what rays of a tilt need is kept.
+/// Makes and tightens blocks. Not thread-safe: cells are filled when a block first needs them, and
+/// kept, so that to bound the same bins again costs little.
 class GainBound {
  public:
   /// The grid must outlive it. The sensor's gain must be positive or expected. Throws InputError
@@ -53,13 +61,13 @@ class GainBound {
   /// The blocks of level 0, which together hold the whole box.
   std::vector<BoundBlock> roots() const;
 
-  /// The blocks of the next level that together hold this one's bins, each with its parent's
-  /// bound; none where joints are told apart no further.
-  std::vector<BoundBlock> children(const BoundBlock& block) const;
+  /// The blocks of the next level that together hold those of this one's bins that are above
+  /// `worth`, each with its parent's bound; none where joints are told apart no further.
+  std::vector<BoundBlock> children(const BoundBlock& block, float worth) const;
 
-  /// Lowers the bounds of those bins that are above `worth`. Returns false where it had to stop,
-  /// the bounds then being valid, if not as low. Evaluations, of which `stop` may allow so many,
-  /// are cones, of all calls together.
+  /// Lowers the bounds of those bins that are above `worth`. Returns false where it had to stop, or
+  /// where its cells would take more than 256 MiB, the bounds then being valid, if not as low.
+  /// Evaluations, of which `stop` may allow so many, are cones, of all calls together.
   bool tighten(BoundBlock& block, float worth, const StopRule& stop);
 
   /// The joint positions of a bin, which may stick out of the box.
@@ -74,6 +82,7 @@ class GainBound {
     float least_azimuth, largest_azimuth, least_elevation, largest_elevation;
   };
   struct Alive;
+  using BlockKey = std::array<int, 4>;  ///< level, and the block's first bins
 
   double cell_rad(int level) const;
   double slab_m(int level) const;
@@ -81,6 +90,11 @@ class GainBound {
   std::vector<BoundBlock> cut(int level, const std::array<int, 3>& first,
                               const std::array<int, 3>& end) const;
   JointBox box_of(const BoundBlock& block) const;
+  /// The cells of a block, empty where they are new.
+  ConeCells& cells_of(const BoundBlock& block, const std::pair<double, double>& turn_cells);
+  /// The cells that rays of the views of some bins of a row go through.
+  CellBox seen_from(const BoundBlock& block, int tilt, int begin, int end,
+                    const std::pair<double, double>& turn_cells);
   const RayRanges& ranges_of(int level, int tilt);
   RayRanges make_ranges(double tilt_min_rad, double tilt_max_rad, double cell_rad) const;
   RayWindows windows_of(const RayRanges& ranges, const std::pair<double, double>& turn_cells,
@@ -101,9 +115,10 @@ class GainBound {
   std::vector<double> tangent_x_, tangent_y_;  ///< of each ray, x / z and y / z
   ConeGrid cones_grid_;
   ConeMarch march_;
-  int ranges_level_ = -1;
-  std::unordered_map<int, RayRanges> ranges_;  ///< of the level, by tilt
+  std::map<std::pair<int, int>, RayRanges> ranges_;  ///< by level and tilt
+  std::map<BlockKey, std::shared_ptr<ConeCells>> cells_;
   std::int64_t cones_ = 0;
+  std::size_t cell_bytes_ = 0;
 };
 
 }  // namespace nbvopt::detail

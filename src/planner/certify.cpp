@@ -1,6 +1,8 @@
 #include "planner/certify.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,9 +17,12 @@ using detail::GainBound;
 
 /// The boxes with the largest bounds are looked at by the exact gain: so many a level.
 constexpr std::size_t kLooks = 32;
+/// Of a level: 128 MiB of bounds.
+constexpr std::size_t kMostBins = std::size_t{32} << 20;
 
-/// Best first by level: all boxes of a level that may hold a better view are bounded, those that
-/// promise most first, before any is cut into smaller ones.
+/// Best first by rounds and levels: a round aims at half the gap of the one before; in a round all
+/// boxes of a level that may hold a better view than that are bounded, those that promise most
+/// first, before any is cut into smaller ones. What rounds have in common is kept by the bound.
 class BranchAndBound {
  public:
   BranchAndBound(const VoxelGrid& grid, const SensorOptions& sensor, const MovingMast& mast,
@@ -27,32 +32,49 @@ class BranchAndBound {
         objective_(objective),
         options_(options),
         stop_(stop),
-        bound_(grid, sensor, mast, box),
-        blocks_(bound_.roots()) {}
+        bound_(grid, sensor, mast, box) {}
 
   CertifiedView run(const JointPosition& joints) {
+    Certificate& certificate = best_.certificate;
     best_.joints = joints;
-    best_.certificate.gain = objective_.view(joints.vector()).gain;
-    while (tighten_all() && !is_met()) {
-      look_at_best();
-      if (is_met() || !refine()) break;
+    certificate.gain = objective_.view(joints.vector()).gain;
+    certificate.upper_bound = std::numeric_limits<double>::infinity();
+    bool is_met = true;
+    while (is_met && certificate.gap() > options_.gap) {
+      target_ = std::max(options_.gap, 0.5 * std::min(target_, certificate.gap()));
+      is_met = meets_target();
+      certificate.upper_bound =
+          std::max(certificate.gain, std::min(certificate.upper_bound, upper_bound()));
     }
-    best_.certificate.upper_bound = std::max(upper_bound(), best_.certificate.gain);
-    best_.certificate.cones = bound_.cones();
+    certificate.cones = bound_.cones();
     return best_;
   }
 
  private:
-  /// Boxes up to here need no closer look: the gap is met without them.
-  float worth() const { return static_cast<float>(best_.certificate.gain / (1.0 - options_.gap)); }
+  /// Bounds all boxes anew, until no better view could add more than the target. Returns false
+  /// where it has to stop before.
+  bool meets_target() {
+    blocks_ = bound_.roots();
+    left_ = 0.0F;
+    while (tighten_all()) {
+      look_at_best();
+      if (upper_bound() <= worth()) return true;
+      if (!refine()) return false;
+    }
+    return false;
+  }
+
+  /// Boxes up to here need no closer look: the target is met without them. Rounded down, so that it
+  /// is met in double precision too.
+  float worth() const {
+    return std::nextafter(static_cast<float>(best_.certificate.gain / (1.0 - target_)), 0.0F);
+  }
 
   double upper_bound() const {
     float most = left_;
     for (const BoundBlock& block : blocks_) most = std::max(most, block.largest());
     return most;
   }
-
-  bool is_met() const { return upper_bound() <= worth(); }
 
   bool tighten_all() {
     std::vector<std::pair<float, BoundBlock*>> order;
@@ -64,23 +86,32 @@ class BranchAndBound {
     });
   }
 
-  /// The next level's boxes. Returns false where there are none.
+  /// The next level's boxes. Returns false where there are none, or too many.
   bool refine() {
     std::vector<BoundBlock> finer;
+    std::size_t bins = 0;
+    const float worth = this->worth();
+    float left = left_;
     for (const BoundBlock& block : blocks_) {
-      if (block.largest() <= worth()) {
-        left_ = std::max(left_, block.largest());
-        continue;
+      for (const float bound : block.bounds) {
+        if (bound <= worth) left = std::max(left, bound);
       }
-      std::vector<BoundBlock> children = bound_.children(block);
+      if (block.largest() <= worth) continue;
+      std::vector<BoundBlock> children = bound_.children(block, worth);
       if (children.empty()) return false;
+      for (const BoundBlock& child : children) bins += child.bounds.size();
+      if (bins > kMostBins) return false;
       std::move(children.begin(), children.end(), std::back_inserter(finer));
     }
+    left_ = left;
     blocks_ = std::move(finer);
     return true;
   }
 
+  /// Once a level: the next time the same boxes would be the best.
   void look_at_best() {
+    if (blocks_.empty() || blocks_.front().level <= looked_at_level_) return;
+    looked_at_level_ = blocks_.front().level;
     struct Bin {
       float bound;
       const BoundBlock* block;
@@ -89,9 +120,9 @@ class BranchAndBound {
     std::vector<Bin> bins;
     const auto is_better = [](const Bin& a, const Bin& b) { return a.bound > b.bound; };
     for (const BoundBlock& block : blocks_) {
-      for (int t = 0; t < block.tilts; ++t) {
-        for (int p = 0; p < block.pans; ++p) {
-          const float bound = block.bounds[static_cast<std::size_t>(t * block.pans + p)];
+      for (int t = block.tilt_begin; t < block.tilt_end; ++t) {
+        for (int p = block.pan_begin; p < block.pan_end; ++p) {
+          const float bound = block.row(t)[p - block.pan_begin];
           if (bins.size() == kLooks && bound <= bins.front().bound) continue;
           if (bins.size() == kLooks) {
             std::pop_heap(bins.begin(), bins.end(), is_better);
@@ -119,7 +150,9 @@ class BranchAndBound {
   StopRule stop_;
   GainBound bound_;
   std::vector<BoundBlock> blocks_;  ///< of one level; with what is left, they hold the whole box
-  float left_ = 0.0F;               ///< the largest bound of boxes that need no closer look
+  double target_ = 0.32;            ///< the gap that a round aims at, twice the first
+  int looked_at_level_ = -1;
+  float left_ = 0.0F;  ///< the largest bound of boxes that need no closer look
   CertifiedView best_;
 };
 

@@ -69,7 +69,7 @@ class Reach {
       if (level == 3) break;
       std::vector<BoundBlock> finer;
       for (const BoundBlock& block : levels_.back()) {
-        std::ranges::move(bound_.children(block), std::back_inserter(finer));
+        std::ranges::move(bound_.children(block, -1.0F), std::back_inserter(finer));
       }
       levels_.push_back(std::move(finer));
     }
@@ -111,7 +111,7 @@ class Reach {
       const int p = pan == block.pans && q[0] == box_.max[0] ? pan - 1 : pan;
       const int t = tilt == block.tilts && q[1] == box_.max[1] ? tilt - 1 : tilt;
       if (p < 0 || t < 0 || p >= block.pans || t >= block.tilts) continue;
-      return block.bounds[static_cast<std::size_t>(t * block.pans + p)];
+      return block.row(t)[p - block.pan_begin];
     }
     ADD_FAILURE() << "no box holds " << q.transpose();
     return 0.0;

@@ -21,8 +21,9 @@ constexpr int kRounds = 12;
 constexpr std::size_t kStopsApart = test::kAddressSanitizer ? 4 : 1;
 
 /// The paper's platform, its depth image thinned out.
-Robot coarse_robot() {
+Robot coarse_robot(GainKind gain) {
   Robot robot;
+  robot.sensor.gain = gain;
   robot.sensor.horizontal_pixels = 160;
   robot.sensor.vertical_pixels = 120;
   return robot;
@@ -31,10 +32,11 @@ Robot coarse_robot() {
 /// A robot at one place of the office, which knows a part of it.
 class Explorer {
  public:
-  Explorer(const VoxelGrid& office, UncertaintyMap known, const Transform& T_map_base)
+  Explorer(const VoxelGrid& office, UncertaintyMap known, GainKind gain,
+           const Transform& T_map_base)
       : office_(office),
         map_(std::make_shared<SharedMap>(std::move(known))),
-        planner_(map_, coarse_robot()) {
+        planner_(map_, coarse_robot(gain)) {
     request_.T_map_base = T_map_base;
     request_.joints = {.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4};
     request_.motion_time_s = 0.5;
@@ -72,9 +74,10 @@ struct Information {
 
 using MakeMap = std::function<UncertaintyMap()>;
 
-Information explore(const VoxelGrid& office, const MakeMap& known, const Transform& T_map_base) {
+Information explore(const VoxelGrid& office, const MakeMap& known, GainKind gain,
+                    const Transform& T_map_base) {
   const auto learned_by = [&](const Solver* solver) {
-    return Explorer(office, known(), T_map_base).explore(solver);
+    return Explorer(office, known(), gain, T_map_base).explore(solver);
   };
   const Information learned{learned_by(nullptr),
                             learned_by(make_solver("grid", {.grid_steps = {0.1, 0.0, 0.0}}).get()),
@@ -88,7 +91,7 @@ TEST(ClosedLoop, LearnsMostOfTheRestBySearchingAllJoints) {
   const auto office = VoxelGrid::whole(make_office(0.05));
   const MakeMap shipped = [] { return read_map(test::datasets_dir() / "office_partial.ot"); };
   for (const std::size_t stop : {7, 10}) {
-    const Information learned = explore(*office, shipped, office_stops()[stop]);
+    const Information learned = explore(*office, shipped, GainKind::positive, office_stops()[stop]);
     EXPECT_GT(learned.pan_grid, learned.still);
     EXPECT_GT(learned.all_joints, 1.1 * learned.pan_grid);
   }
@@ -102,7 +105,7 @@ TEST(ClosedLoop, LearnsMostFromNothingBySearchingAllJoints) {
   Information sum;
   for (const Transform& T_map_base : office_stops()) {
     const Information learned = explore(
-        *office, [] { return UncertaintyMap(kResolution_m); }, T_map_base);
+        *office, [] { return UncertaintyMap(kResolution_m); }, GainKind::expected, T_map_base);
     sum.still += learned.still;
     sum.pan_grid += learned.pan_grid;
     sum.all_joints += learned.all_joints;
