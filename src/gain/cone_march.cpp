@@ -294,7 +294,6 @@ ConeView ConeMarch::operator()(const Cone& cone) const {
     if (values.max >= most_behind || !layer.fits()) {
       values.max = std::max(values.max, most_behind);
       was_cut_short = true;
-      is_clear = false;
       break;
     }
     if (is_full) {
@@ -372,7 +371,6 @@ ConeView ConeMarch::operator()(const Cone& cone) const {
     const bool ends_near = (k + 1 - cone.origin_max[0]) * cone.stretch_min <= near_max_;
     reached = touched & (ends_near ? passable : open);
     if (reached == 0) {
-      is_clear = false;
       stopped_all = true;
       break;
     }
