@@ -12,6 +12,7 @@
 #include "nbvopt/core/error.hpp"
 #include "server/listening_socket.hpp"
 #include "support/error_message.hpp"
+#include "support/sanitizers.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/wait_until.hpp"
 
@@ -146,6 +147,7 @@ TEST_F(AcceptorTest, RefusesMoreThanItMayHoldUntilOneIsGone) {
 }
 
 TEST_F(AcceptorTest, HearsAgainWhenDescriptorsAreBack) {
+  if (test::kAddressSanitizer) GTEST_SKIP() << "the sanitizer looks at memory by descriptors";
   start({.connections = 4, .silent = 4});
   const Descriptor client = new_client();
   {
