@@ -51,9 +51,6 @@ class ConeMarch {
   /// The cone's windows must lie in the grid's box.
   ConeView operator()(const Cone& cone) const;
 
-  /// Of the longest ray, voxels.
-  double far() const { return far_; }
-
  private:
   struct Layer;
   Layer layer_at(const Cone& cone, int k) const;
