@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "nbvopt/core/error.hpp"
+#include "sim/triangle_distance.hpp"
 
 namespace nbvopt {
 namespace {
@@ -66,6 +67,30 @@ void cast_packet(RTCScene scene, const Eigen::Vector3f& origin, const Eigen::Vec
     const bool is_hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     distances_m[i] = is_hit ? packet.ray.tfar[i] : kNoHit;
   }
+}
+
+/// What a query for a surface near a point works on.
+struct NearSurface {
+  const float* vertices_m;
+  const unsigned* corners;
+  bool is_found = false;
+};
+
+/// Looks at a triangle near the query's point. Whether the query's radius has shrunk: to nothing,
+/// since one triangle that is near enough ends the search.
+bool look_at_triangle(RTCPointQueryFunctionArguments* arguments) {
+  auto& near = *static_cast<NearSurface*>(arguments->userPtr);
+  RTCPointQuery& query = *arguments->query;
+  const auto corner = [&](unsigned which) {
+    const float* vertex = &near.vertices_m[3 * near.corners[3 * arguments->primID + which]];
+    return Eigen::Vector3f(vertex[0], vertex[1], vertex[2]);
+  };
+  const float squared_m2 =
+      squared_triangle_distance({query.x, query.y, query.z}, corner(0), corner(1), corner(2));
+  if (near.is_found || squared_m2 > query.radius * query.radius) return false;
+  near.is_found = true;
+  query.radius = 0.0F;
+  return true;
 }
 
 }  // namespace
@@ -169,6 +194,22 @@ std::optional<SurfaceHit> Scene::first_surface(const Eigen::Vector3d& origin_map
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const Eigen::Vector3f normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
   return SurfaceHit{.distance_m = ray.ray.tfar, .is_outside = normal.dot(direction_map) < 0.0F};
+}
+
+bool Scene::has_surface_within(const Eigen::Vector3d& point_map_m, float distance_m) const {
+  constexpr unsigned kGeometry = 0;  // the mesh
+  RTCGeometry geometry = rtcGetGeometry(embree_->scene, kGeometry);
+  NearSurface near{.vertices_m = static_cast<const float*>(
+                       rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)),
+                   .corners = static_cast<const unsigned*>(
+                       rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0))};
+  const Eigen::Vector3f point = point_map_m.cast<float>();
+  RTCPointQuery query{
+      .x = point.x(), .y = point.y(), .z = point.z(), .time = 0.0F, .radius = distance_m};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(embree_->scene, &query, &context, look_at_triangle, &near);
+  return near.is_found;
 }
 
 }  // namespace nbvopt

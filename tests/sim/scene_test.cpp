@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/uniform.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/box_mesh.hpp"
 #include "support/error_message.hpp"
@@ -67,6 +68,27 @@ TEST(Scene, LeaksNoRayFromAClosedBox) {
     const double expected = (half.array() / directions[i].cast<double>().array().abs()).minCoeff();
     ASSERT_NEAR(distances[i], expected, 1e-5) << i;
   }
+}
+
+/// Points around a box, over its faces, edges and corners, and inside of it.
+TEST(Scene, KnowsWhatIsNearASurface) {
+  const Eigen::Vector3d half(0.5, 0.3, 0.2);
+  TriangleMesh mesh;
+  add_box(mesh, -half, half);
+  const Scene scene(mesh);
+  std::mt19937_64 random(5);
+  int near = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d point =
+        Eigen::Vector3d::NullaryExpr([&] { return 2 * uniform(random) - 1; });
+    const Eigen::Array3d beyond = point.array().abs() - half.array();
+    const double distance_m =
+        beyond.maxCoeff() < 0.0 ? -beyond.maxCoeff() : beyond.max(0.0).matrix().norm();
+    if (std::abs(distance_m - 0.1) < 1e-5) continue;
+    EXPECT_EQ(scene.has_surface_within(point, 0.1F), distance_m < 0.1) << point.transpose();
+    near += distance_m < 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(near, 100);
 }
 
 TEST(Scene, GivesTheSameDistancesForAnyNumberOfThreads) {

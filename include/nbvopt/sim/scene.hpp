@@ -37,6 +37,9 @@ class Scene {
                                           const Eigen::Vector3f& direction_map,
                                           float range_max_m) const;
 
+  /// Whether any part of a surface lies within that distance of the point.
+  bool has_surface_within(const Eigen::Vector3d& point_map_m, float distance_m) const;
+
  private:
   struct Embree;
   std::unique_ptr<Embree> embree_;
