@@ -28,9 +28,13 @@ struct ReadyWorld {
 };
 
 /// The drive that was asked for, from the first free place where no start was given.
-DriveOptions drive_options(const SimulateOptions& options, const ReadyWorld& world) {
+DriveOptions drive_options(const SimulateOptions& options, const EpisodeOptions& episode,
+                           const ReadyWorld& world) {
   DriveOptions drive = options.drive;
-  drive.exploration.seed = static_cast<std::uint64_t>(options.seed);
+  drive.explorer = enum_value<ExplorerKind>(options.explorer).value_or(drive.explorer);
+  drive.exploration.seed = episode.seed;
+  drive.robot = episode.robot;
+  drive.joints = episode.start_joints;
   if (!options.explores_open_ground) {
     drive.exploration.world_map_m = seen_from_above(world.bounds_m);
   }
@@ -139,7 +143,7 @@ void run_simulate(const SimulateOptions& options) {
     return tell_episode(options, world.scene, {read_trajectory(options.trajectory_file)},
                         simulation);
   }
-  const DriveOptions asked = drive_options(options, world);
+  const DriveOptions asked = drive_options(options, simulation.options().episode, world);
   const Drive drive = drive_of(options, world.scene, asked);
   if (options.is_exploring_only) return tell_drive(options, drive, asked);
   tell_episode(options, world.scene, drive, simulation);

@@ -1,6 +1,7 @@
 #include "cli/options/simulate_arguments.hpp"
 
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <limits>
 
 #include "cli/options/arguments.hpp"
@@ -23,6 +24,11 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           "first "
           "free place, as nbvopt world info lists them]")
       ->type_name("X,Y[,Z],YAW");
+  simulate
+      .add_option("--explore", options.explorer,
+                  "who chooses where it drives: 2d follows the frontiers of the lidar's map [2d]")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(enum_names<ExplorerKind>()));
   simulate
       .add_option_function<std::vector<std::string>>(
           "--goal",
@@ -117,6 +123,10 @@ void check(const SimulateOptions& options) {
       !(options.drive.start.empty() && options.drive.goals_map_m.empty() &&
         options.drive.exploration.region_map_m.empty())) {
     throw UsageError("--trajectory holds the whole drive: leave --start, --goal and --region out");
+  }
+  if (!options.explorer.empty() &&
+      !(options.trajectory_file.empty() && options.drive.goals_map_m.empty())) {
+    throw UsageError("--explore chooses where to drive: leave it or --goal and --trajectory out");
   }
   if (options.is_exploring_only && !options.trajectory_file.empty()) {
     throw UsageError("--explore-only makes a trajectory: leave --trajectory out");

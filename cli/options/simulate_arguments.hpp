@@ -14,7 +14,8 @@ namespace nbvopt {
 struct SimulateOptions {
   WorldArguments world;
   RobotArguments robot;
-  DriveOptions drive;  ///< without a start: the world's first free place
+  DriveOptions drive;    ///< without a start: the world's first free place
+  std::string explorer;  ///< of ExplorerKind's names; empty: as the drive has it
   bool explores_open_ground = false;
   std::string trajectory_file;  ///< empty: the robot drives by itself
   bool is_exploring_only = false;

@@ -29,6 +29,15 @@ Transform start_pose(const std::vector<double>& start, const Scene& scene) {
   return base_pose(start[0], start[1], z_m, start.back());
 }
 
+Exploration exploration(const Scene& scene, const Transform& T_map_base,
+                        const DriveOptions& options) {
+  switch (options.explorer) {
+    case ExplorerKind::plane:
+      return explore(scene, T_map_base, options.exploration);
+  }
+  throw UsageError("there is no such explorer");
+}
+
 }  // namespace
 
 Eigen::AlignedBox2d seen_from_above(const Eigen::AlignedBox3d& bounds_m) {
@@ -38,11 +47,10 @@ Eigen::AlignedBox2d seen_from_above(const Eigen::AlignedBox3d& bounds_m) {
 
 Drive make_drive(const Scene& scene, const DriveOptions& options) {
   const Transform T_map_base = start_pose(options.start, scene);
-  Exploration exploration =
-      options.goals_map_m.empty()
-          ? explore(scene, T_map_base, options.exploration)
-          : drive_to(scene, T_map_base, options.goals_map_m, options.exploration);
-  return {std::move(exploration.trajectory), exploration.status};
+  Exploration made = options.goals_map_m.empty()
+                         ? exploration(scene, T_map_base, options)
+                         : drive_to(scene, T_map_base, options.goals_map_m, options.exploration);
+  return {std::move(made.trajectory), made.status};
 }
 
 DriveReport report_of(const Drive& drive, const DriveOptions& options, const std::string& world) {

@@ -10,19 +10,26 @@
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
+#include "nbvopt/mast/mast.hpp"
+#include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/camera_mode.hpp"
 #include "nbvopt/sim/episode.hpp"
 #include "nbvopt/sim/exploration.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/trajectory.hpp"
 #include "sim/episode_output.hpp"
+#include "sim/explorer_kind.hpp"
 
 namespace nbvopt {
 
 struct DriveOptions {
   std::vector<double> start = {};  ///< x, y, yaw or x, y, z, yaw in the map; without z on the floor
   std::vector<Eigen::Vector2d> goals_map_m = {};  ///< driven to in turn; empty: the base explores
+  ExplorerKind explorer = ExplorerKind::plane;
   ExplorationOptions exploration = {};
+  /// What explorers look with that explore space: a camera that stays as it is on its mast.
+  Robot robot = {};
+  JointPosition joints = EpisodeOptions{}.start_joints;
 };
 
 /// A box from above, as ExplorationOptions::world_map_m takes a world's; empty where that is.

@@ -126,6 +126,9 @@ TEST_F(Simulate, RefusesAWrongCommandLine) {
                  "--explore-only maps nothing");
   expect_refusal(nbvopt_run(episode({"--mode", "clever"})), 2, "no camera mode 'clever'");
   expect_refusal(nbvopt_run(drive({"--start", "0,0"})), 2, "X,Y,YAW");
+  expect_refusal(nbvopt_run(drive({"--explore", "4d"})), 2, "--explore: 4d not in {2d");
+  expect_refusal(nbvopt_run(episode({"--explore", "2d"})), 2, "--explore chooses where");
+  expect_refusal(nbvopt_run(drive({"--explore", "2d", "--goal", "1,1"})), 2, "--explore chooses");
 }
 
 TEST_F(Simulate, RefusesWhatCannotBeRun) {
