@@ -58,6 +58,7 @@ Run run_of(const Json& record, const UnitIndex& unit, std::uint64_t seed) {
   const Json& by_mode = record.at("gain_by_mode");
   run.gain_by_mode = {by_mode.at("distance").get<double>(), by_mode.at("angle").get<double>(),
                       by_mode.at("both").get<double>()};
+  run.dense_gain = record.value("dense_gain", run.dense_gain);  // older records have none
   run.evaluations = record.at("evaluations").get<std::int64_t>();
   run.surrogate_evaluations = record.at("surrogate_evaluations").get<std::int64_t>();
   run.move_time_s = record.at("move_time_s").get<double>();
@@ -101,7 +102,8 @@ void read_cases(const Study& study, const StudyFolder& folder, Results& results)
     if (known == case_of_id.end() || record.contains("failure")) return;
     CaseResult& one = results.cases[known->second];
     one.best_known = record.at("gain").get<double>();
-    one.upper_bound = record.value("upper_bound", one.upper_bound);  // older records have none
+    one.upper_bound = record.value("upper_bound", one.upper_bound);  // older records have none,
+    one.dense_gain = record.value("dense_gain", one.dense_gain);     // nor this
     one.reference_gain = results.against == Against::upper_bound ? one.upper_bound : one.best_known;
   });
 }

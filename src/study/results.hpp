@@ -24,6 +24,8 @@ struct CaseResult {
   double best_known = std::numeric_limits<double>::quiet_NaN();
   /// What it proved that no view in reach exceeds; NaN where it did not.
   double upper_bound = std::numeric_limits<double>::quiet_NaN();
+  /// Of the reference's view: as Run::dense_gain. NaN where it is not known.
+  double dense_gain = std::numeric_limits<double>::quiet_NaN();
 
   /// What a view that is not known could add at most, as a share of the bound.
   double gap() const { return upper_bound > 0.0 ? 1.0 - best_known / upper_bound : 0.0; }
@@ -56,6 +58,9 @@ struct Run {
   double current_gain = 0.0;  ///< exact, of staying
   /// The exact gain of the answer's view in each uncertainty mode: distance, angle, both.
   std::array<double, 3> gain_by_mode{};
+  /// The exact gain of the answer's view with a ray for each pixel of the camera's image; NaN in
+  /// older records.
+  double dense_gain = std::numeric_limits<double>::quiet_NaN();
   std::int64_t evaluations = 0;  ///< of the exact gain
   std::int64_t surrogate_evaluations = 0;
   double move_time_s = 0.0;

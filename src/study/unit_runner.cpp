@@ -85,26 +85,39 @@ class UnitRunner::Scene {
   }
 
   const ViewPlanner& planner(UncertaintyMode mode, const StudySearch& search) {
-    const GainChoice gain = search.gain.value_or(robot_.sensor.gain);
-    const auto key = std::tuple(mode, search.evaluator, to_string(gain));
-    const auto known = planners_.find(key);
-    if (known != planners_.end()) return known->second;
     Robot robot = robot_;
     robot.sensor.uncertainty_mode = mode;
-    robot.sensor.gain = gain;
-    return planners_.emplace(key, ViewPlanner(map_, robot, search.evaluator)).first->second;
+    if (search.gain) robot.sensor.gain = *search.gain;
+    return planner(robot, search.evaluator);
   }
   /// Judges by the robot's exact gain, as this mode counts it.
   const ViewPlanner& exact(UncertaintyMode mode) { return planner(mode, {.evaluator = kExact}); }
+  /// The same with a ray for each pixel.
+  const ViewPlanner& dense(UncertaintyMode mode) {
+    Robot robot = robot_;
+    robot.sensor.uncertainty_mode = mode;
+    robot.sensor.horizontal_rays = robot.sensor.horizontal_pixels;
+    robot.sensor.vertical_rays = robot.sensor.vertical_pixels;
+    return planner(robot, kExact);
+  }
   Counting counting() const { return robot_.sensor.counting; }
 
  private:
+  const ViewPlanner& planner(const Robot& robot, const std::string& evaluator) {
+    const SensorOptions& sensor = robot.sensor;
+    const auto key = std::tuple(sensor.uncertainty_mode, evaluator, to_string(sensor.gain),
+                                sensor.horizontal_rays);
+    const auto known = planners_.find(key);
+    if (known != planners_.end()) return known->second;
+    return planners_.emplace(key, ViewPlanner(map_, robot, evaluator)).first->second;
+  }
+
   std::filesystem::path map_file_;
   std::filesystem::path robot_file_;
   std::string map_digest_;
   Robot robot_;
   std::shared_ptr<SharedMap> map_;  ///< of all planners
-  std::map<std::tuple<UncertaintyMode, std::string, std::string>, ViewPlanner> planners_;
+  std::map<std::tuple<UncertaintyMode, std::string, std::string, int>, ViewPlanner> planners_;
 };
 
 UnitRunner::UnitRunner(SolverFactory make) : make_(std::move(make)) {}
@@ -145,6 +158,7 @@ Json UnitRunner::run_query(const WorkUnit& unit) {
       {"gain", is_exact ? result.view.gain : gain_at(exact, request, result.joints)},
       {"current_gain", is_exact ? result.current.gain : gain_at(exact, request, request.joints)},
       {"gain_by_mode", gain_by_mode},
+      {"dense_gain", scene_->dense(unit.mode).evaluate(result.T_map_sensor).gain},
       {"evaluations", result.evaluations},
       {"surrogate_evaluations", result.surrogate_evaluations},
       {"move_time_s", result.move_time_s},
@@ -167,8 +181,8 @@ Json UnitRunner::run_reference(const WorkUnit& unit) {
                       {"evaluations", level.evaluations},
                       {"gain", level.gain}});
   }
+  JointPosition best = reference.joints;
   Json record{{"gain", reference.gain},
-              {"joints", joints_json(reference.joints)},
               {"evaluations", reference.evaluations},
               {"agreed", reference.has_agreed},
               {"levels", levels}};
@@ -182,11 +196,13 @@ Json UnitRunner::run_reference(const WorkUnit& unit) {
                      .max_cones = reference.evaluations * sensor.horizontal_rays *
                                   sensor.vertical_rays / kRaysPerCone};
     const CertifiedView certified = planner.certify(proof, reference.joints);
+    best = certified.joints;
     record["gain"] = certified.certificate.gain;
-    record["joints"] = joints_json(certified.joints);
     record["upper_bound"] = certified.certificate.upper_bound;
     record["gap"] = certified.certificate.gap();
   }
+  record["joints"] = joints_json(best);
+  record["dense_gain"] = gain_at(scene_->dense(unit.mode), request, best);
   record["times"] = {{"search_ms", elapsed_ms(begin)}};
   return record;
 }

@@ -91,6 +91,8 @@ TEST_F(StudyRun, RecordsAnswersThatKeepTheirPromises) {
     EXPECT_LE(run.evaluations + run.surrogate_evaluations, budget.max_evaluations);
     EXPECT_GE(run.gain, run.current_gain);
     EXPECT_EQ(run.gain, run.gain_by_mode[2]) << "the mode is both";
+    const double pixels_per_ray = 100.0;  // of the paper's camera
+    EXPECT_NEAR(run.dense_gain, pixels_per_ray * run.gain, 5.0 * run.gain);
     ASSERT_FALSE(run.progress.empty());
     EXPECT_EQ(run.progress.front().gain, run.current_gain);
     EXPECT_EQ(run.progress.front().evaluations, 1);
@@ -106,6 +108,7 @@ TEST_F(StudyRun, RecordsAnswersThatKeepTheirPromises) {
     const CaseResult& one = results.cases[run.case_index];
     EXPECT_LE(run.gain, one.upper_bound);
     EXPECT_LE(one.best_known, one.upper_bound);
+    EXPECT_NEAR(one.dense_gain, 100.0 * one.best_known, 5.0 * one.best_known);
     const double reference = one.reference_gain;
     EXPECT_LE(run.gain, reference * (1.0 + 2e-3));
   }

@@ -12,7 +12,9 @@ Evaluation evaluate(const Results& results) {
           .best_motion_times = best_motion_times(results),
           .modes = compare_modes(results),
           .comparisons = compare_with_control(results),
-          .excess = excess_over_reference(results)};
+          .excess = excess_over_reference(results),
+          .dense = summarise_dense(results),
+          .dense_ratio_of_references = dense_ratio_of_references(results)};
 }
 
 }  // namespace nbvopt::study

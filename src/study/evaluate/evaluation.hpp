@@ -6,6 +6,7 @@
 
 #include "study/evaluate/comparison.hpp"
 #include "study/evaluate/cycle.hpp"
+#include "study/evaluate/dense.hpp"
 #include "study/evaluate/modes.hpp"
 #include "study/evaluate/profiles.hpp"
 #include "study/evaluate/ratio.hpp"
@@ -27,6 +28,8 @@ struct Evaluation {
   std::optional<ModeTable> modes;
   std::vector<Comparison> comparisons;
   Excess excess;
+  std::vector<DenseSummary> dense;
+  double dense_ratio_of_references = 0.0;
 };
 
 /// Throws UsageError where the study has no budget.

@@ -13,14 +13,16 @@ namespace {
 struct Samples {
   std::size_t failures = 0;
   std::size_t runs = 0;
-  std::vector<double> ratio;
+  std::vector<CaseValue> ratio;
   std::vector<double> exact_evaluations;
   std::vector<double> surrogate_evaluations;
   std::vector<double> search_time_ms;
 
   void add(const Results& results, const Run& run) {
     ++runs;
-    if (has_reference(results, run)) ratio.push_back(gain_ratio(results, run));
+    if (has_reference(results, run)) {
+      ratio.push_back({&results.cases[run.case_index], gain_ratio(results, run)});
+    }
     if (run.has_failed()) {
       ++failures;
       return;
@@ -55,13 +57,15 @@ std::vector<Summary> summarise(const Results& results) {
   std::vector<Summary> rows;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Samples& own = samples[i];
+    const std::vector<double> ratios = values_of(own.ratio);
     rows.push_back({.solver = i / budgets,
                     .budget = i % budgets,
                     .runs = own.runs,
                     .failures = own.failures,
-                    .mean_ratio = mean(own.ratio),
-                    .median_ratio = quantile(own.ratio, 0.5),
-                    .worst_ratio = quantile(own.ratio, 0.0),
+                    .mean_ratio = mean(ratios),
+                    .mean_ratio_interval = mean_interval(own.ratio),
+                    .median_ratio = quantile(ratios, 0.5),
+                    .worst_ratio = quantile(ratios, 0.0),
                     .mean_exact_evaluations = mean(own.exact_evaluations),
                     .mean_surrogate_evaluations = mean(own.surrogate_evaluations),
                     .mean_search_time_ms = mean(own.search_time_ms),

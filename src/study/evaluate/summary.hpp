@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "study/evaluate/interval.hpp"
 #include "study/results.hpp"
 
 namespace nbvopt::study {
@@ -23,6 +24,7 @@ struct Summary {
   std::size_t failures = 0;
   /// Over the runs of cases with a reference; a failed run counts 0.
   double mean_ratio = 0.0;
+  Interval mean_ratio_interval;
   double median_ratio = 0.0;
   double worst_ratio = 0.0;
   /// Over the runs with an answer, with a reference or not.

@@ -1,5 +1,6 @@
 #include "study/report/report.hpp"
 
+#include <algorithm>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Files that not every report has.
 constexpr const char* kModesFile = "modes.csv";
+constexpr const char* kDenseFile = "dense.csv";
 
 /// Name and content.
 using File = std::pair<std::string, std::string>;
@@ -38,6 +41,9 @@ std::vector<File> make_files(const study::Results& results, const study::Evaluat
       {"budget.png", budget_plot(results, evaluation)},
       {"cycle.png", cycle_plot(results, evaluation)}};
   if (evaluation.modes) files.emplace_back(kModesFile, to_csv(modes_table(*evaluation.modes)));
+  if (!evaluation.dense.empty()) {
+    files.emplace_back(kDenseFile, to_csv(dense_table(results, evaluation)));
+  }
   return files;
 }
 
@@ -49,9 +55,11 @@ void write_report(const study::Results& results, const fs::path& folder) {
   const std::vector<File> files = make_files(results, evaluation);
   create_folder(folder);
   for (const auto& [name, content] : files) write_file_atomically(folder / name, content);
-  if (evaluation.modes) return;
   std::error_code ignored;
-  fs::remove(folder / kModesFile, ignored);  // of an earlier report, when there were several modes
+  for (const char* name : {kModesFile, kDenseFile}) {
+    // Of an earlier report, when there was more to tell.
+    if (std::ranges::count(files, name, &File::first) == 0) fs::remove(folder / name, ignored);
+  }
 }
 
 }  // namespace nbvopt

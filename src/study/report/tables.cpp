@@ -35,6 +35,11 @@ std::string milliseconds(double value) {
   return decimal(value, value < 10.0 ? 2 : 1);
 }
 
+std::string interval_text(const study::Interval& interval) {
+  if (std::isnan(interval.low)) return "-";
+  return ratio_digits(interval.low) + " to " + ratio_digits(interval.high);
+}
+
 TextTable solver_rows(const Results& results) {
   TextTable table{{{"solver", "solver"}}, {}};
   for (const std::string& solver : results.solvers) table.rows.push_back({solver});
@@ -88,6 +93,8 @@ TextTable summary_table(const Results& results, const Evaluation& evaluation) {
                    {"runs", ""},
                    {"failures", ""},
                    {"mean_ratio", ""},
+                   {"mean_ratio_low", ""},
+                   {"mean_ratio_high", ""},
                    {"median_ratio", ""},
                    {"worst_ratio", ""},
                    {"mean_exact_evaluations", ""},
@@ -99,9 +106,10 @@ TextTable summary_table(const Results& results, const Evaluation& evaluation) {
     const study::Budget& budget = results.budgets[row.budget];
     table.rows.push_back({results.solvers[row.solver], static_cast<double>(budget.max_evaluations),
                           budget.time_limit_ms, number(row.runs), number(row.failures),
-                          row.mean_ratio, row.median_ratio, row.worst_ratio,
-                          row.mean_exact_evaluations, row.mean_surrogate_evaluations,
-                          row.mean_search_time_ms, row.p99_search_time_ms});
+                          row.mean_ratio, row.mean_ratio_interval.low, row.mean_ratio_interval.high,
+                          row.median_ratio, row.worst_ratio, row.mean_exact_evaluations,
+                          row.mean_surrogate_evaluations, row.mean_search_time_ms,
+                          row.p99_search_time_ms});
   }
   return table;
 }
@@ -111,6 +119,7 @@ TextTable main_table(const Results& results, const Evaluation& evaluation) {
                    {"", "runs"},
                    {"", "failed"},
                    {"", "mean ratio", ratio_digits},
+                   {"", "95 %"},
                    {"", "median", ratio_digits},
                    {"", "worst", ratio_digits},
                    {"", "exact evaluations"},
@@ -121,9 +130,25 @@ TextTable main_table(const Results& results, const Evaluation& evaluation) {
   for (const study::Summary& row : evaluation.summaries) {
     if (row.budget != evaluation.budget) continue;
     table.rows.push_back({results.solvers[row.solver], number(row.runs), number(row.failures),
-                          row.mean_ratio, row.median_ratio, row.worst_ratio,
-                          row.mean_exact_evaluations, row.mean_surrogate_evaluations,
-                          row.mean_search_time_ms, row.p99_search_time_ms});
+                          row.mean_ratio, interval_text(row.mean_ratio_interval), row.median_ratio,
+                          row.worst_ratio, row.mean_exact_evaluations,
+                          row.mean_surrogate_evaluations, row.mean_search_time_ms,
+                          row.p99_search_time_ms});
+  }
+  return table;
+}
+
+TextTable dense_table(const Results& results, const Evaluation& evaluation) {
+  TextTable table{{{"solver", "solver"},
+                   {"runs", "runs"},
+                   {"mean_ratio", "mean ratio", ratio_digits},
+                   {"mean_ratio_low", "95 %: from", ratio_digits},
+                   {"mean_ratio_high", "to", ratio_digits},
+                   {"worst_ratio", "worst", ratio_digits}},
+                  {}};
+  for (const study::DenseSummary& row : evaluation.dense) {
+    table.rows.push_back({results.solvers[row.solver], number(row.runs), row.mean_ratio,
+                          row.mean_interval.low, row.mean_interval.high, row.worst_ratio});
   }
   return table;
 }

@@ -26,6 +26,8 @@ TextTable cycle_table(const study::Results& results, const study::Evaluation& ev
 TextTable best_motion_time_table(const study::Results& results,
                                  const study::Evaluation& evaluation);
 /// For people as well.
+TextTable dense_table(const study::Results& results, const study::Evaluation& evaluation);
+/// For people as well.
 TextTable comparison_table(const study::Results& results, const study::Evaluation& evaluation);
 TextTable modes_table(const study::ModeTable& modes);
 TextTable performance_profile_table(const study::Results& results,

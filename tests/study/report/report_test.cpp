@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "core/text_file.hpp"
@@ -116,13 +117,29 @@ TEST_F(StudyReport, HoldsTheFigures) {
   const std::string text = written("report.md");
   // Of the four cases with a reference one has nothing to gain, which all reach.
   EXPECT_THAT(text,
-              HasSubstr("| auto | 5 | 0 | 0.9978 | 0.9975 | 0.9950 | 40 | 0 | 10.0 | 10.0 |"));
+              HasSubstr("| auto | 5 | 0 | 0.9978 | 0.9950 to 0.9998 | 0.9975 | 0.9950 | 40 | 0 | "
+                        "10.0 | 10.0 |"));
   EXPECT_THAT(text, HasSubstr("| paper, 0.8 rad | 1.0000 | 20 | 5.00 | 0.2500 | 80 | 20.0 |"));
   EXPECT_THAT(text, HasSubstr("| random | 0.6250 | 0.6250 | 0.6250 |"));
   EXPECT_THAT(written("ert.csv"), HasSubstr("\nrandom,0.99,4,1,400,100\n"));
-  EXPECT_THAT(written("summary.csv"), HasSubstr("\nrandom,0,50,5,1,0.625,0.5,0.5,100,0,25,25\n"));
+  EXPECT_THAT(written("summary.csv"), HasSubstr("\nrandom,0,50,5,1,0.625,0.5,0.83333"));
+  EXPECT_THAT(written("summary.csv"), HasSubstr(",0.5,0.5,100,0,25,25\n"));
   EXPECT_THAT(written("wilcoxon.csv"), HasSubstr("\nrandom,4,1,0,6,exact,0.25,"));
   EXPECT_THAT(written("best_motion_time.csv"), HasSubstr("\nauto,room.ot,0.5,0.5,0.5\n"));
+}
+
+TEST_F(StudyReport, JudgesByAllPixelsWhereThatIsKnown) {
+  write();
+  EXPECT_THAT(written("report.md"), Not(HasSubstr("By all pixels")));
+  for (auto& one : results.cases) one.dense_gain = 200.0;
+  for (auto& run : results.runs) run.dense_gain = run.solver == 0 ? 150.0 : 250.0;
+  write();
+  EXPECT_THAT(written("report.md"), HasSubstr("views have 0.8000 of it"));
+  EXPECT_THAT(written("dense.csv"), HasSubstr("\nauto,5,0.6,0.6,0.6,0.6\n"));
+  for (auto& one : results.cases) one.dense_gain = kNaN;
+  write();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "report" / "dense.csv"))
+      << "it is of the report before";
 }
 
 TEST_F(StudyReport, SaysNeverWhereNothingIsReached) {
