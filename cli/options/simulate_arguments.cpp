@@ -25,8 +25,11 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           "free place, as nbvopt world info lists them]")
       ->type_name("X,Y[,Z],YAW");
   simulate
-      .add_option("--explore", options.explorer,
-                  "who chooses where it drives: 2d follows the frontiers of the lidar's map [2d]")
+      .add_option(
+          "--explore", options.explorer,
+          "who chooses where it drives: 2d, the frontiers of the lidar's map; 3d, views that would "
+          "show most of the unknown (Bai et al., 2016), seldom done before --duration-max; "
+          "3d-tekniker, the same as the paper's authors ran it [2d]")
       ->type_name("NAME")
       ->check(CLI::IsMember(enum_names<ExplorerKind>()));
   simulate

@@ -6,12 +6,16 @@
 namespace nbvopt {
 
 enum class ExplorerKind {
-  plane,  ///< frontiers in the lidar's map, as explore()
+  plane,            ///< frontiers in the lidar's map, as explore()
+  volume,           ///< views that show much of the unknown, as explore_volume()
+  volume_tekniker,  ///< the same as the paper's authors ran it
 };
 
 template <>
 inline constexpr auto kEnumNames<ExplorerKind> = std::to_array<EnumName<ExplorerKind>>({
     {ExplorerKind::plane, "2d"},
+    {ExplorerKind::volume, "3d"},
+    {ExplorerKind::volume_tekniker, "3d-tekniker"},
 });
 
 }  // namespace nbvopt

@@ -6,6 +6,7 @@
 #include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sim/floor.hpp"
+#include "nbvopt/sim/volume_exploration.hpp"
 
 namespace nbvopt {
 namespace {
@@ -31,9 +32,20 @@ Transform start_pose(const std::vector<double>& start, const Scene& scene) {
 
 Exploration exploration(const Scene& scene, const Transform& T_map_base,
                         const DriveOptions& options) {
+  const auto in_volume = [&](VolumeExplorer explorer) {
+    std::vector<std::string> warnings;
+    const Mast mast(options.robot.mast);
+    return explore_volume(scene, T_map_base,
+                          mast.T_base_sensor(mast.clamped(options.joints, warnings)), explorer,
+                          options.exploration);
+  };
   switch (options.explorer) {
     case ExplorerKind::plane:
       return explore(scene, T_map_base, options.exploration);
+    case ExplorerKind::volume:
+      return in_volume(VolumeExplorer::bai2016);
+    case ExplorerKind::volume_tekniker:
+      return in_volume(VolumeExplorer::tekniker);
   }
   throw UsageError("there is no such explorer");
 }

@@ -13,6 +13,7 @@ constexpr double kLookAhead_m = 0.1;
 /// The part of the path on which the base looks for itself.
 constexpr double kSearchAhead_m = 0.5;
 constexpr double kArrival_m = 0.03;
+constexpr double kTurned_rad = 0.005;
 
 }  // namespace
 
@@ -30,19 +31,40 @@ BaseMotion::BaseMotion(const BaseOptions& options, const Eigen::Vector2d& positi
     : options_(options), position_map_m_(position_map_m), yaw_rad_(yaw_rad) {}
 
 void BaseMotion::follow(Path path) {
+  turn_to_rad_.reset();
   path_ = std::move(path);
   along_path_m_ = 0.0;
+}
+
+void BaseMotion::turn_to(double yaw_rad) {
+  path_.reset();
+  turn_to_rad_ = yaw_rad;
+}
+
+void BaseMotion::halt() {
+  path_.reset();
+  turn_to_rad_.reset();
 }
 
 bool BaseMotion::has_arrived() const {
   return !path_ || (path_->point_at(path_->length_m()) - position_map_m_).norm() < kArrival_m;
 }
 
+bool BaseMotion::has_turned() const {
+  return !turn_to_rad_ || std::abs(*turn_to_rad_ - yaw_rad_) < kTurned_rad;
+}
+
 bool BaseMotion::stands() const { return velocity_map_m_s_.isZero(0.0) && turn_rate_rad_s_ == 0.0; }
 
 void BaseMotion::step(double time_s) {
+  const auto turn_rate = [&](double turn_rad) {
+    return std::copysign(
+        std::min(options_.turn_rate_max_rad_s,
+                 braking_speed(std::abs(turn_rad), options_.turn_acceleration_max_rad_s2, time_s)),
+        turn_rad);
+  };
   Eigen::Vector2d wanted_m_s = Eigen::Vector2d::Zero();
-  double wanted_rad_s = 0.0;
+  double wanted_rad_s = turn_to_rad_ ? turn_rate(*turn_to_rad_ - yaw_rad_) : 0.0;
   if (path_ && !has_arrived()) {
     along_path_m_ =
         path_->nearest_m(position_map_m_, along_path_m_, along_path_m_ + kSearchAhead_m);
@@ -53,10 +75,7 @@ void BaseMotion::step(double time_s) {
         std::min(options_.speed_max_m_s * std::clamp(2.0 * std::cos(turn_rad), 0.0, 1.0),
                  braking_speed(left_m, options_.acceleration_max_m_s2, time_s));
     wanted_m_s = speed_m_s * ahead_m.normalized();
-    wanted_rad_s = std::copysign(
-        std::min(options_.turn_rate_max_rad_s,
-                 braking_speed(std::abs(turn_rad), options_.turn_acceleration_max_rad_s2, time_s)),
-        turn_rad);
+    wanted_rad_s = turn_rate(turn_rad);
   }
   const Eigen::Vector2d change_m_s = wanted_m_s - velocity_map_m_s_;
   const double change_max_m_s = options_.acceleration_max_m_s2 * time_s;

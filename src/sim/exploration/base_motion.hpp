@@ -1,4 +1,4 @@
-// How a base moves along a path.
+// How a base moves along a path, and turns.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,11 @@ class BaseMotion {
   /// Takes a new path, which starts about where the base is.
   void follow(Path path);
 
+  /// Turns on the spot to a yaw, which is not wrapped, the way that it is off by.
+  void turn_to(double yaw_rad);
+
   /// Brakes and stands.
-  void halt() { path_.reset(); }
+  void halt();
 
   /// Moves for one short time: velocities change by what the accelerations allow, then positions
   /// by the new velocities. So the limits hold for differences between samples, exactly.
@@ -33,6 +36,8 @@ class BaseMotion {
 
   /// Whether the path's end is as near as a base needs to be; also when there is no path.
   bool has_arrived() const;
+  /// Whether it looks to where it was told to turn, as near as it needs to; also when it was not.
+  bool has_turned() const;
   bool stands() const;
 
  private:
@@ -43,6 +48,7 @@ class BaseMotion {
   double turn_rate_rad_s_ = 0.0;
   std::optional<Path> path_;
   double along_path_m_ = 0.0;
+  std::optional<double> turn_to_rad_;  ///< only without a path
 };
 
 /// The greatest speed from which a body that brakes in steps stops within a distance. For turns:

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,8 +7,8 @@
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sim/exploration.hpp"
 #include "sim/exploration/drive_region.hpp"
-#include "sim/exploration/grid_planner.hpp"
 #include "sim/exploration/plane_robot.hpp"
+#include "sim/exploration/reach.hpp"
 
 namespace nbvopt {
 namespace {
@@ -17,41 +16,6 @@ namespace {
 /// The way is searched in the box of all that is known and the goal: a larger one would not fit
 /// into memory.
 constexpr double kFarthestGoal_m = 200.0;
-
-/// How far beyond all that is known and the goal a way around may lead.
-constexpr double kDetour_m = 10.0;
-
-/// The way from the robot to the goal through what is not known to be barred.
-std::optional<Path> way_to(const PlaneRobot& robot, const DriveCosts& costs,
-                           const Eigen::Vector2d& goal_map_m) {
-  const OccupancyGrid& grid = robot.grid();
-  Eigen::AlignedBox2i box = grid.bounds();
-  box.extend(grid.cell_at(goal_map_m));
-  const Cell detour = Cell::Constant(static_cast<int>(kDetour_m / grid.cell_m()));
-  return GridPlanner(costs, robot.position_map_m(), {box.min() - detour, box.max() + detour})
-      .path(goal_map_m);
-}
-
-/// Drives to one goal; false when the time runs out on the way.
-bool reach(PlaneRobot& robot, const DriveCosts& costs, const Eigen::Vector2d& goal_map_m,
-           const std::string& name) {
-  bool needs_way = true;
-  while (!robot.is_out_of_time()) {
-    if (needs_way || robot.is_path_blocked(costs)) {
-      std::optional<Path> path = way_to(robot, costs, goal_map_m);
-      if (!path) {
-        throw InputError(name +
-                         " cannot be reached: it is too near to a surface or walled off, "
-                         "choose one in free space");
-      }
-      robot.follow(std::move(*path));
-      needs_way = false;
-    }
-    if (robot.has_arrived()) return true;
-    robot.drive_to_next_scan();
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -78,7 +42,13 @@ Exploration drive_to(const Scene& scene, const Transform& T_map_base,
       throw InputError(name + " is " + format_number(std::round(distance_m)) +
                        " m away, it must be at most 200 m: give others on the way");
     }
-    if (!reach(robot, costs, goal_map_m, name)) status = ExplorationStatus::time_limit;
+    const Arrival arrival = reach(robot, costs, goal_map_m, options.duration_max_s, [] {});
+    if (arrival == Arrival::barred) {
+      throw InputError(name +
+                       " cannot be reached: it is too near to a surface or walled off, "
+                       "choose one in free space");
+    }
+    if (arrival == Arrival::late) status = ExplorationStatus::time_limit;
   }
   robot.stop();
   return {status, robot.trajectory(), robot.grid()};

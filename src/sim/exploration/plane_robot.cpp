@@ -60,7 +60,7 @@ double clearance_min_m(const ExplorationOptions& options) {
   return options.base.radius_m + options.cell_m;
 }
 
-double yaw_rad(const Transform& T_map_base) {
+double yaw_of(const Transform& T_map_base) {
   return std::atan2(T_map_base.linear()(1, 0), T_map_base.linear()(0, 0));
 }
 
@@ -73,7 +73,7 @@ PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
       z_map_m_(T_map_base.translation().z()),
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
-      motion_(options.base, T_map_base.translation().head<2>(), yaw_rad(T_map_base)) {
+      motion_(options.base, T_map_base.translation().head<2>(), yaw_of(T_map_base)) {
   record();
   scan();
 }

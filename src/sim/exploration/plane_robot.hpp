@@ -29,10 +29,18 @@ class PlaneRobot {
   void halt() { motion_.halt(); }
   bool has_arrived() const { return motion_.has_arrived(); }
 
+  /// As BaseMotion's.
+  void turn_to(double yaw_rad) { motion_.turn_to(yaw_rad); }
+  bool has_turned() const { return motion_.has_turned(); }
+  bool stands() const { return motion_.stands(); }
+
   /// Whether what the lidar has seen since bars the rest of the way.
   bool is_path_blocked(const DriveCosts& costs) const;
 
+  double time_s() const { return points_.back().time_s; }
+  Transform T_map_base() const;
   const Eigen::Vector2d& position_map_m() const { return motion_.position_map_m(); }
+  double yaw_rad() const { return motion_.yaw_rad(); }  ///< not wrapped
   const OccupancyGrid& grid() const { return grid_; }
 
   /// What ways cost this base, through known free cells only or unknown ones too. It refers to this
@@ -42,7 +50,6 @@ class PlaneRobot {
   Trajectory trajectory() const { return Trajectory(points_); }
 
  private:
-  Transform T_map_base() const;
   void step();
   void scan();
   void record();

@@ -125,5 +125,20 @@ TEST(BaseMotion, StandsWithoutAPath) {
   EXPECT_EQ(base.yaw_rad(), 0.5);
 }
 
+TEST(BaseMotion, TurnsOnTheSpot) {
+  for (const double yaw_rad : {1.0, -2.5, 7.0}) {
+    BaseMotion base({}, {1.0, 2.0}, 0.5);
+    base.turn_to(yaw_rad);
+    std::vector<Sample> samples{{base.position_map_m(), base.yaw_rad()}};
+    for (int i = 0; i < 2000 && !(base.has_turned() && base.stands()); ++i) {
+      base.step(kStep_s);
+      samples.push_back({base.position_map_m(), base.yaw_rad()});
+    }
+    EXPECT_NEAR(base.yaw_rad(), yaw_rad, 0.01);
+    EXPECT_EQ(base.position_map_m(), Eigen::Vector2d(1.0, 2.0));
+    expect_within_limits(samples, {});
+  }
+}
+
 }  // namespace
 }  // namespace nbvopt
