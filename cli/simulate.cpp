@@ -88,6 +88,9 @@ Simulation simulation_of(const SimulateOptions& options) {
       !simulation.episode.robot.sensor.gain.has(GainKind::expected)) {
     throw UsageError("--hazards-out keeps what an expected gain learns: add --gain expected");
   }
+  LocalisationOptions& localisation = simulation.episode.localisation;
+  localisation.lidar_range_m = options.drive.exploration.mapping_range_m;
+  simulation.episode.scores_map |= localisation.source != PoseSource::truth;
   simulation.episode.seed = static_cast<std::uint64_t>(options.seed);
   return Simulation(std::move(simulation));
 }

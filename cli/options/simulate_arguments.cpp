@@ -8,6 +8,7 @@
 #include "cli/options/region_argument.hpp"
 #include "core/atomic_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/localisation/pose_source_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -94,6 +95,27 @@ void add_camera(CLI::App& simulate, SimulateOptions& options) {
   add_robot_arguments(simulate, options.robot);
 }
 
+void add_localisation(CLI::App& simulate, SimulateOptions& options) {
+  simulate.option_defaults()->group("How the base knows where it is");
+  LocalisationOptions& localisation = options.simulation.episode.localisation;
+  simulate
+      .add_option_function<std::string>(
+          "--pose-source",
+          [&localisation](const std::string& name) {
+            localisation.source = enum_value<PoseSource>(name).value();
+          },
+          "truth: exactly; odom: by wheels that err; slam: by wheels and lidar, a particle filter. "
+          "Views are planned and mapped with this pose; the drive itself is made with the true one "
+          "[truth]")
+      ->check(CLI::IsMember(enum_names<PoseSource>()))
+      ->type_name("NAME");
+  add_number(simulate, "--odometry-noise", localisation.odometry_noise, "FACTOR",
+             "multiplies the errors of the wheels, those of GMapping's motion model");
+  simulate.add_flag("--score-map", options.simulation.episode.scores_map,
+                    "judge the map by the world: precision, recall, information of true voxels; "
+                    "always done where poses err");
+}
+
 void add_outputs(CLI::App& simulate, SimulateOptions& options) {
   simulate.option_defaults()->group("What to write");
   const auto add_file = [&simulate](const char* name, std::string& target, const char* type,
@@ -118,6 +140,7 @@ void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
   add_world_arguments(simulate, options.world);
   add_drive(simulate, options);
   add_camera(simulate, options);
+  add_localisation(simulate, options);
   add_outputs(simulate, options);
 }
 
@@ -141,6 +164,10 @@ void check(const SimulateOptions& options) {
                                      options.metrics_out.empty() && options.plot_out.empty())) {
     throw UsageError(
         "--explore-only maps nothing: leave --map-out, --hazards-out, --metrics and --plot out");
+  }
+  const EpisodeOptions& episode = options.simulation.episode;
+  if (options.is_exploring_only && episode.localisation.source != PoseSource::truth) {
+    throw UsageError("--explore-only drives with the true pose: leave --pose-source out");
   }
   // An episode whose outcome could not be kept would be in vain.
   for (const std::string& file : {options.trajectory_out, options.map_out, options.hazards_out,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
+#include "sim/localisation/localiser.hpp"
 #include "sim/realised_gain.hpp"
 
 namespace nbvopt {
@@ -60,7 +62,9 @@ class EpisodeRun {
         observe_(observe),
         mast_(options.robot.mast),
         planning_camera_(options.robot.sensor),
-        camera_(scene, options.robot.sensor, options.range_noise_m, options.seed) {
+        scene_(scene),
+        camera_(scene, options.robot.sensor, options.range_noise_m, options.seed),
+        localiser_(scene, trajectory, options.localisation, options.seed) {
     std::vector<std::string> warnings;
     move_.from = move_.to = mast_.clamped(options.start_joints, warnings);
     const MapCounts counts = map.counts();
@@ -68,6 +72,7 @@ class EpisodeRun {
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
+    if (options.scores_map && errs()) map_of_true_poses_.emplace(map.resolution_m());
     summary_.hazards =
         options.hazards.value_or(HazardTable(trajectory.T_map_base(0.0).translation().z()));
   }
@@ -84,6 +89,10 @@ class EpisodeRun {
       capture_on_the_way(time_s, next_s);
       time_s = next_s;
     }
+    if (errs()) summary_.localisation = localiser_.record();
+    if (options_.scores_map) {
+      summary_.map_score = score_map(map_, errs() ? *map_of_true_poses_ : map_, scene_);
+    }
     return summary_;
   }
 
@@ -95,7 +104,7 @@ class EpisodeRun {
     // The first view was nobody's choice.
     capture.predicted_gain = predicted_gain_;
     if (std::isfinite(predicted_gain_)) {
-      capture.realised_gain = true_gain(T_map_sensor(capture));
+      capture.realised_gain = true_gain({capture.T_map_base, capture.T_world_base}, capture.joints);
       summary_.prediction.add(capture.predicted_gain, capture.realised_gain);
     }
     insert(capture);
@@ -126,7 +135,9 @@ class EpisodeRun {
     Capture capture;
     capture.frame = summary_.captures++;
     capture.time_s = time_s;
-    capture.T_map_base = trajectory_.T_map_base(time_s);
+    const BasePoses base = localiser_.at(time_s);
+    capture.T_map_base = base.T_map_base;
+    capture.T_world_base = base.T_world_base;
     capture.joints = is_on_the_way ? mast_.on_the_way(move_.from, move_.to,
                                                       std::max(0.0, time_s - move_.departure_s))
                                    : move_.to;
@@ -143,20 +154,28 @@ class EpisodeRun {
     return request;
   }
 
-  Transform T_map_sensor(const Capture& capture) const {
-    return nbvopt::T_map_sensor(request(capture), mast_, capture.joints);
+  /// The camera on a base, in the frame in which the base is given.
+  Transform T_sensor_on(const Transform& T_base, const JointPosition& joints) const {
+    PlanRequest there;
+    there.T_map_base = T_base;
+    return T_map_sensor(there, mast_, joints);
   }
 
   /// Takes the frame and puts it into the map.
   void insert(Capture& capture) {
-    const Transform T = T_map_sensor(capture);
-    const Scan scan = timed(capture.render_ms, [&] { return camera_.capture(T, capture.frame); });
+    const Transform T = T_sensor_on(capture.T_map_base, capture.joints);
+    const Transform T_world_sensor = T_sensor_on(capture.T_world_base, capture.joints);
+    const Scan scan =
+        timed(capture.render_ms, [&] { return camera_.capture(T_world_sensor, capture.frame); });
     if (grid_ && is_expected()) {
       timed(capture.insert_ms,
             [&] { learn_hazards(*grid_, scan, T, options_.robot.sensor, summary_.hazards); });
     }
     const InsertResult inserted =
         timed(capture.insert_ms, [&] { return insert_scan(map_, scan, T, options_.robot.sensor); });
+    if (map_of_true_poses_) {
+      insert_scan(*map_of_true_poses_, scan, T_world_sensor, options_.robot.sensor);
+    }
     if (grid_) {
       timed(capture.grid_ms, [&] { grid_ = grid_->updated(inserted.changes); });
     }
@@ -175,20 +194,24 @@ class EpisodeRun {
     if (!grid_) return {.joints = capture.joints};
     const PlanRequest now = request(capture);
     PlanRequest next = now;
-    next.T_map_base = trajectory_.T_map_base(std::min(next_s, trajectory_.duration_s()));
+    const BasePoses ahead = localiser_.ahead(std::min(next_s, trajectory_.duration_s()));
+    next.T_map_base = ahead.T_map_base;
     return timed(capture.plan_ms, [&] {
       return mode_.next_view(ViewPlanner(grid_, options_.robot, summary_.hazards),
-                             is_expected() ? next : now, [&](const JointPosition& joints) {
-                               return true_gain(nbvopt::T_map_sensor(next, mast_, joints));
-                             });
+                             is_expected() ? next : now,
+                             [&](const JointPosition& joints) { return true_gain(ahead, joints); });
     });
   }
 
   /// What a view from there would realise on the map as it is.
-  double true_gain(const Transform& T_map_sensor) const {
-    return realised_gain(map_, planning_camera_, camera_.planning_distances_m(T_map_sensor),
-                         T_map_sensor);
+  double true_gain(const BasePoses& base, const JointPosition& joints) const {
+    return realised_gain(map_, planning_camera_,
+                         camera_.planning_distances_m(T_sensor_on(base.T_world_base, joints)),
+                         T_sensor_on(base.T_map_base, joints));
   }
+
+  /// Whether the base may be elsewhere than it believes.
+  bool errs() const { return options_.localisation.source != PoseSource::truth; }
 
   bool is_expected() const { return options_.robot.sensor.gain.has(GainKind::expected); }
 
@@ -199,7 +222,10 @@ class EpisodeRun {
   const std::function<void(const Capture&)>& observe_;
   Mast mast_;
   DepthCamera planning_camera_;
+  const Scene& scene_;
   SimulatedCamera camera_;
+  Localiser localiser_;
+  std::optional<UncertaintyMap> map_of_true_poses_;  ///< of the same views, to score the map by
   std::shared_ptr<const VoxelGrid> grid_;  ///< of the map; null where the mode does not plan
   JointMove move_;                         ///< the latest
   double predicted_gain_ = Capture::kNaN;  ///< of the view that the camera moves to
@@ -212,6 +238,7 @@ void EpisodeOptions::validate() const {
   check_positive("the motion time of an episode", motion_time_s, "s");
   if (capture_hz) check_positive("the capture rate", *capture_hz, "Hz");
   check_range_noise(range_noise_m);
+  localisation.validate();
   robot.sensor.validate();
   std::vector<std::string> warnings;
   Mast(robot.mast).clamped(start_joints, warnings);

@@ -7,6 +7,7 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/localisation/localisation_output.hpp"
 
 namespace nbvopt {
 namespace {
@@ -51,6 +52,20 @@ InformationGrowth growth_of(const Json& json) {
   return growth;
 }
 
+template <class Value>
+Json json_or_null(const std::optional<Value>& value) {
+  return value ? to_json(*value) : Json(nullptr);
+}
+
+/// The value of a key that may be null.
+template <class Read>
+auto optional_of(const Json& json, const char* key, const Read& read)
+    -> std::optional<decltype(read(json))> {
+  const Json& value = json.at(key);
+  if (value.is_null()) return std::nullopt;
+  return read(value);
+}
+
 /// When half of the final map was there, and more of it.
 std::string growth_text(const EpisodeSummary& summary) {
   std::string text = "growth: " + decimal(summary.growth.mean_until(summary.duration_s), 1) +
@@ -60,6 +75,13 @@ std::string growth_text(const EpisodeSummary& summary) {
     if (time_s) text += ", " + percent(share) + " after " + decimal(*time_s, 1) + " s";
   }
   return text + '\n';
+}
+
+/// x, y, z and yaw.
+Json base_json(const Transform& T_map_base) {
+  const Eigen::Vector3d& base_m = T_map_base.translation();
+  const Eigen::Vector3d x_map = T_map_base.linear().col(0);
+  return {base_m.x(), base_m.y(), base_m.z(), std::atan2(x_map.y(), x_map.x())};
 }
 
 }  // namespace
@@ -81,11 +103,10 @@ StepTimes StepTimer::mean() const {
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const Capture& capture) {
-  const Eigen::Vector3d& base_m = capture.T_map_base.translation();
-  const Eigen::Vector3d x_map = capture.T_map_base.linear().col(0);
   return {{"frame", capture.frame},
           {"time_s", capture.time_s},
-          {"base", {base_m.x(), base_m.y(), base_m.z(), std::atan2(x_map.y(), x_map.x())}},
+          {"base", base_json(capture.T_map_base)},
+          {"true_base", base_json(capture.T_world_base)},
           {"pan", capture.joints.pan_rad},
           {"tilt", capture.joints.tilt_rad},
           {"height", capture.joints.height_m},
@@ -143,6 +164,9 @@ Json to_json(const EpisodeReport& report) {
       {"growth", to_json(summary.growth)},
       {"voxels_as_paper_counts", report.paper_counts.voxels},
       {"information_as_paper_counts", report.paper_counts.information},
+      {"pose_source", to_string(report.pose_source)},
+      {"localisation", json_or_null(summary.localisation)},
+      {"map_score", json_or_null(summary.map_score)},
       {"prediction",
        {{"steps", prediction.steps},
         {"correlation", number_or_null(prediction.correlation())},
@@ -160,6 +184,7 @@ Json to_json(const EpisodeReport& report) {
         {"insert", report.times.insert_ms},
         {"grid", report.times.grid_ms},
         {"plan", report.times.plan_ms},
+        {"scan", summary.localisation ? summary.localisation->scan_ms : 0.0},
         {"episode", report.elapsed_ms}}}};
 }
 
@@ -172,6 +197,9 @@ EpisodeReport episode_report_of(const Json& json) {
   };
   const auto count = [](const Json& object, const char* key) {
     return object.at(key).get<std::uint64_t>();
+  };
+  const auto localisation = [&](const Json& record) {
+    return localisation_record_of(record, number(times_ms, "scan"));
   };
   return {.world = json.at("world").get<std::string>(),
           .mode = json.at("mode").get<std::string>(),
@@ -187,7 +215,9 @@ EpisodeReport episode_report_of(const Json& json) {
                                      .sum_y = number(pooled, "sum_y"),
                                      .sum_xx = number(pooled, "sum_xx"),
                                      .sum_yy = number(pooled, "sum_yy"),
-                                     .sum_xy = number(pooled, "sum_xy")}},
+                                     .sum_xy = number(pooled, "sum_xy")},
+                      .localisation = optional_of(json, "localisation", localisation),
+                      .map_score = optional_of(json, "map_score", map_score_of)},
           .paper_counts = {.voxels = count(json, "voxels_as_paper_counts"),
                            .information = number(json, "information_as_paper_counts")},
           .times = {.render_ms = number(times_ms, "render"),
@@ -195,17 +225,21 @@ EpisodeReport episode_report_of(const Json& json) {
                     .grid_ms = number(times_ms, "grid"),
                     .plan_ms = number(times_ms, "plan")},
           .elapsed_ms = number(times_ms, "episode"),
-          .drive_status = drive_status_of(json)};
+          .drive_status = drive_status_of(json),
+          .pose_source = pose_source_of(json.at("pose_source").get<std::string>())};
 }
 
 std::string to_text(const EpisodeReport& report) {
   const EpisodeSummary& summary = report.summary;
   const PredictionRecord& prediction = summary.prediction;
-  std::string text = report.mode + ", t = " + decimal(report.motion_time_s, 2) +
-                     " s: " + std::to_string(summary.captures) + " captures in " +
-                     decimal(summary.duration_s, 1) + " s of driving\n" +
-                     "map: " + std::to_string(summary.voxels) + " voxels with u < 1, information " +
-                     decimal(summary.information, 1) + "\n" + growth_text(summary);
+  std::string text =
+      report.mode + ", t = " + decimal(report.motion_time_s, 2) +
+      " s: " + std::to_string(summary.captures) + " captures in " + decimal(summary.duration_s, 1) +
+      " s of driving\n" + "map: " + std::to_string(summary.voxels) +
+      " voxels with u < 1, information " + decimal(summary.information, 1) + "\n" +
+      growth_text(summary) +
+      (summary.localisation ? to_text(*summary.localisation, report.pose_source) : "") +
+      (summary.map_score ? to_text(*summary.map_score) : "");
   if (std::isfinite(prediction.correlation())) {
     text += "gain: predicted " + decimal(prediction.sum_x, 0) + ", realised " +
             decimal(prediction.sum_y, 0) + " (bias " + percent(prediction.bias()) +

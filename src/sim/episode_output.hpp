@@ -53,6 +53,7 @@ struct EpisodeReport {
   double elapsed_ms = 0.0;  ///< of the whole episode
   /// How the drive ended that was made for it; none: it was replayed.
   std::optional<ExplorationStatus> drive_status = {};
+  PoseSource pose_source = PoseSource::truth;
 };
 
 /// JSON has no NaN: what does not exist is null.
@@ -65,7 +66,7 @@ std::string to_text(const DriveReport& report);
 std::string to_text(const EpisodeReport& report);
 
 /// The way back; other keys are passed over. Throw nlohmann's exceptions, and InputError for a
-/// status that is not known.
+/// status or pose source that is not known.
 DriveReport drive_report_of(const Json& json);
 EpisodeReport episode_report_of(const Json& json);
 

@@ -96,6 +96,7 @@ EpisodeReport Simulation::run(const Scene& scene, const Trajectory& trajectory,
   report.mode = options_.mode;
   report.motion_time_s = options_.episode.motion_time_s;
   report.seed = options_.episode.seed;
+  report.pose_source = options_.episode.localisation.source;
   report.paper_counts = map_.paper_counts();
   report.times = timer.mean();
   report.elapsed_ms = stopwatch.elapsed_ms();

@@ -92,6 +92,25 @@ TEST_F(Simulate, AnswersTheSameOnAnyNumberOfThreads) {
   }
 }
 
+TEST_F(Simulate, TellsWhatPosesAndMapAreWorth) {
+  const auto summary = [&](const char* source, const char* threads) {
+    return without_times(nbvopt_json(
+        episode({"--json", "--mode", "grid", "--pose-source", source, "--threads", threads})));
+  };
+  const json slam = summary("slam", "1");
+  EXPECT_EQ(slam, summary("slam", "3"));
+  EXPECT_EQ(slam["pose_source"], "slam");
+  EXPECT_GT(slam["localisation"]["position_error_m"]["largest"], 0.0);
+  EXPECT_GT(slam["localisation"]["scans"], 0);
+  EXPECT_LE(slam["map_score"]["precision"], 1.0);
+  EXPECT_LE(slam["map_score"]["true_information"], slam["information"]);
+  const json truth = summary("truth", "1");
+  EXPECT_TRUE(truth["localisation"].is_null());
+  EXPECT_TRUE(truth["map_score"].is_null());
+  EXPECT_THAT(nbvopt_run(episode({"--score-map", "--mode", "static"})).out,
+              HasSubstr("100.0 % of the occupied voxels are at a surface (precision), 100.0 %"));
+}
+
 TEST_F(Simulate, ReplaysTheDriveThatItMade) {
   const std::string file = folder / "made.csv";
   const json made = nbvopt_json(drive({"--json", "--start", "0.617,0.713,0", "--goal", "1.3,0.8",
@@ -129,6 +148,10 @@ TEST_F(Simulate, RefusesAWrongCommandLine) {
   expect_refusal(nbvopt_run(drive({"--explore", "4d"})), 2, "--explore: 4d not in {2d");
   expect_refusal(nbvopt_run(episode({"--explore", "2d"})), 2, "--explore chooses where");
   expect_refusal(nbvopt_run(drive({"--explore", "2d", "--goal", "1,1"})), 2, "--explore chooses");
+  expect_refusal(nbvopt_run(episode({"--pose-source", "gps"})), 2,
+                 "--pose-source: gps not in {truth,odom,slam}");
+  expect_refusal(nbvopt_run(drive({"--start", "1,1,0", "--pose-source", "slam"})), 2,
+                 "--explore-only drives with the true pose");
 }
 
 TEST_F(Simulate, RefusesWhatCannotBeRun) {
@@ -137,6 +160,11 @@ TEST_F(Simulate, RefusesWhatCannotBeRun) {
   expect_refusal(nbvopt_run(episode({"--range-noise", "-1"})), 3, "range noise");
   expect_refusal(nbvopt_run(episode({"--resolution", "0"})), 3, "resolution");
   expect_refusal(nbvopt_run(episode({"--height", "3"})), 3, "height");
+  expect_refusal(nbvopt_run(episode({"--odometry-noise", "-1"})), 3,
+                 "odometry_noise is -1, it must be 0 or more");
+  expect_refusal(nbvopt_run(episode({"--pose-source", "slam", "--lidar-range", "0.13", "--map-out",
+                                     folder / "no-map.ot"})),
+                 3, "slam: the lidar sees nothing within 0.13 m");
   expect_refusal(nbvopt_run(episode({"--map-out", folder / "no/map.ot"})), 3, "no folder");
   expect_refusal(nbvopt_run(drive({"--start", "0,0.05,0"})), 3, "the start (0, 0.05)");
   expect_refusal(nbvopt_run(drive({"--start", "50,50,0"})), 3, "there is no floor");

@@ -48,6 +48,28 @@ TEST(EpisodeReport, ToleratesThatNothingWasPredicted) {
   EXPECT_EQ(to_json(episode_report_of(json)), json);
 }
 
+TEST(EpisodeReport, KeepsWhatPosesAndMapsWereWorth) {
+  EpisodeReport slam = made_episode();
+  EXPECT_TRUE(to_json(slam).at("localisation").is_null());
+  EXPECT_TRUE(to_json(slam).at("map_score").is_null());
+  slam.pose_source = PoseSource::slam;
+  slam.summary.localisation = {
+      .captures = {0.1, 0.2, 0.05}, .scans = {0.01, 0.02, 0.005}, .scan_count = 7, .scan_ms = 12.5};
+  slam.summary.map_score = {
+      .occupied_voxels = 99, .precision = 0.9, .recall = 0.8, .true_information = 1.0 / 3.0};
+  const Json json = to_json(slam);
+  EXPECT_EQ(json.at("pose_source"), "slam");
+  EXPECT_EQ(json.at("map_score").at("recall"), 0.8);
+  EXPECT_EQ(json.at("times_ms").at("scan"), 12.5);
+  EXPECT_EQ(to_json(episode_report_of(json)), json);
+  EXPECT_THAT(to_text(slam), HasSubstr("pose by slam: off by 0.100 m on average, 0.200 m at most"));
+  EXPECT_THAT(to_text(slam), HasSubstr("90.0 % of the occupied voxels"));
+  Json unknown = json;
+  unknown["pose_source"] = "gps";
+  EXPECT_THAT(test::message_of<InputError>([&] { episode_report_of(unknown); }),
+              HasSubstr("'gps'"));
+}
+
 TEST(EpisodeReport, TellsHowFastTheMapGrew) {
   const Json json = to_json(made_episode());
   EXPECT_NEAR(json.at("mean_information").get<double>(), (0.2 * 0.1 + (1.0 / 3 - 0.2) * 0.3) * 3,
@@ -56,9 +78,10 @@ TEST(EpisodeReport, TellsHowFastTheMapGrew) {
 }
 
 TEST(EpisodeReport, MissesEveryFigure) {
-  for (const char* key : {"world", "mode", "motion_time_s", "seed", "duration_s", "captures",
-                          "voxels", "information", "growth", "voxels_as_paper_counts",
-                          "information_as_paper_counts", "prediction", "times_ms"}) {
+  for (const char* key :
+       {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information",
+        "growth", "voxels_as_paper_counts", "information_as_paper_counts", "pose_source",
+        "localisation", "map_score", "prediction", "times_ms"}) {
     Json json = to_json(made_episode());
     json.erase(key);
     EXPECT_THROW(episode_report_of(json), Json::exception) << key;

@@ -17,22 +17,32 @@ using Cell = Eigen::Vector2i;
 template <class T>
 class CellArray {
  public:
-  explicit CellArray(T outside) : outside_(outside) {}
+  /// It grows by so many cells more than it must, so that one that grows often seldom copies.
+  explicit CellArray(T outside, int margin = 64) : outside_(std::move(outside)), margin_(margin) {}
 
   /// The value of any cell.
   T at(const Cell& cell) const { return contains(cell) ? values_[index(cell)] : outside_; }
 
+  /// The same, null outside of what was reserved.
+  const T* find(const Cell& cell) const { return contains(cell) ? &values_[index(cell)] : nullptr; }
+
   /// A cell that was reserved.
   T& operator[](const Cell& cell) { return values_[index(cell)]; }
+
+  /// Calls visit(value) for every cell that was reserved.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (T& value : values_) visit(value);
+  }
 
   /// Makes all cells of the box writable, and some around them.
   void reserve(const Eigen::AlignedBox2i& box) {
     if (!box.isEmpty() && contains(box.min()) && contains(box.max())) return;
-    CellArray grown(outside_);
+    CellArray grown(outside_, margin_);
     Eigen::AlignedBox2i all = box;
     if (size_.x() > 0) all.extend(min_).extend(Cell(min_ + size_ - Cell::Ones()));
-    grown.min_ = all.min() - Cell::Constant(kMargin);
-    grown.size_ = all.sizes() + Cell::Constant(2 * kMargin + 1);
+    grown.min_ = all.min() - Cell::Constant(margin_);
+    grown.size_ = all.sizes() + Cell::Constant(2 * margin_ + 1);
     grown.values_.assign(
         static_cast<std::size_t>(grown.size_.x()) * static_cast<std::size_t>(grown.size_.y()),
         outside_);
@@ -44,8 +54,6 @@ class CellArray {
   }
 
  private:
-  static constexpr int kMargin = 64;  ///< cells, so that a robot that drives on seldom copies
-
   bool contains(const Cell& cell) const {
     const Cell offset = cell - min_;
     return static_cast<unsigned>(offset.x()) < static_cast<unsigned>(size_.x()) &&
@@ -58,6 +66,7 @@ class CellArray {
   }
 
   T outside_;
+  int margin_;
   Cell min_ = Cell::Zero();
   Cell size_ = Cell::Zero();
   std::vector<T> values_;  // row by row

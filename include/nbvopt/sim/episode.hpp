@@ -12,6 +12,8 @@
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/camera_mode.hpp"
 #include "nbvopt/sim/information_growth.hpp"
+#include "nbvopt/sim/localisation.hpp"
+#include "nbvopt/sim/map_score.hpp"
 #include "nbvopt/sim/prediction_record.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/trajectory.hpp"
@@ -27,12 +29,16 @@ struct EpisodeOptions {
   /// that takes no time, and the same episode gives the same map on every machine.
   bool charge_computing = false;
   double range_noise_m = 0.0;  ///< standard deviation
+  LocalisationOptions localisation = {};
+  /// Whether the map is judged by the world in the end. Where poses err, the same views are then
+  /// entered from their true poses into a second map.
+  bool scores_map = false;
   /// What an expected gain begins with; none: nothing is learnt, the floor is that of the start.
   std::optional<HazardTable> hazards;
   std::uint64_t seed = 1;  ///< of noise, and with the capture's number of what modes draw
 
   /// Throws InputError that names the first bad value: a motion time or rate that is not positive,
-  /// joints beyond their limits, a bad robot or noise.
+  /// joints beyond their limits, a bad robot, noise or localisation.
   void validate() const;
 };
 
@@ -42,7 +48,8 @@ struct Capture {
 
   std::uint64_t frame = 0;
   double time_s = 0.0;
-  Transform T_map_base = Transform::Identity();
+  Transform T_map_base = Transform::Identity();    ///< as the base believes
+  Transform T_world_base = Transform::Identity();  ///< in truth: the same unless poses err
   JointPosition joints;
   bool is_on_the_way = false;  ///< taken while joints move to a view that was planned
   std::uint64_t points_used = 0;
@@ -67,13 +74,16 @@ struct EpisodeSummary {
   double information = 0.0;
   InformationGrowth growth = {};
   PredictionRecord prediction;
-  HazardTable hazards = HazardTable();  ///< learnt, where the gain is expected
+  HazardTable hazards = HazardTable();                  ///< learnt, where the gain is expected
+  std::optional<LocalisationRecord> localisation = {};  ///< none where poses are known
+  std::optional<MapScore> map_score = {};               ///< none where it was not asked for
 };
 
 /// Runs an episode and grows the map, which the caller keeps whatever happens. Calls `observe`
 /// after each capture; what it throws ends the episode. Without computing time charged, the same
 /// arguments give the same map and captures, times in ms aside, for any number of threads. Throws
-/// InputError as EpisodeOptions::validate() does; the map is then untouched.
+/// InputError as EpisodeOptions::validate() does, and when slam has nothing to go by where the
+/// drive starts; the map is then untouched.
 EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
                            const EpisodeOptions& options, UncertaintyMap& map,
                            const std::function<void(const Capture&)>& observe);

@@ -9,6 +9,7 @@
 #include "nbvopt/core/error.hpp"
 #include "sim/exploration/drive_region.hpp"
 #include "sim/exploration/start_check.hpp"
+#include "sim/plane_scan.hpp"
 
 namespace nbvopt {
 namespace {
@@ -115,17 +116,10 @@ void PlaneRobot::record() {
 
 void PlaneRobot::scan() {
   const Transform T_map_base = this->T_map_base();
-  const std::vector<float> ranges_m = lidar_.scan(T_map_base);
   std::vector<Beam> beams;
-  beams.reserve(ranges_m.size());
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    if (ranges_m[i] < 0.0F) continue;  // nearer than the lidar measures: where, it does not say
-    const bool is_hit = ranges_m[i] < options_.mapping_range_m;
-    const double length_m = is_hit ? ranges_m[i] : options_.mapping_range_m;
-    const double angle_rad = lidar_.angle_rad(static_cast<int>(i));
-    const Eigen::Vector3d end_base_m(length_m * std::cos(angle_rad), length_m * std::sin(angle_rad),
-                                     0.0);
-    beams.push_back({(T_map_base * end_base_m).head<2>(), is_hit});
+  for (const PlaneBeam& beam : plane_scan(lidar_, T_map_base, options_.mapping_range_m)) {
+    const Eigen::Vector3d end_base_m(beam.end_base_m.x(), beam.end_base_m.y(), 0.0);
+    beams.push_back({(T_map_base * end_base_m).head<2>(), beam.is_hit});
   }
   clearance_.add_occupied(grid_.insert_scan(position_map_m(), beams));
 }

@@ -1,0 +1,29 @@
+// How wheels err.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/odometry/planar_pose.hpp"
+
+namespace nbvopt {
+
+/// GMapping's model of odometry (openslam_gmapping, MotionModel::drawFromMotion) with the
+/// coefficients that slam_gmapping sets by default, for one step from one processed scan to the
+/// next.
+class MotionModel {
+ public:
+  /// `scale` multiplies all deviations; 0: the wheels do not err.
+  explicit MotionModel(double scale) : scale_(scale) {}
+
+  /// The standard deviations of the x (m), y (m) and yaw (rad) of a motion in the frame of the base
+  /// before it.
+  Eigen::Vector3d deviations(const PlanarPose& motion) const;
+
+  /// The motion with its error: standard normal numbers times the deviations.
+  PlanarPose erring(const PlanarPose& motion, const Eigen::Vector3d& normals) const;
+
+ private:
+  double scale_;
+};
+
+}  // namespace nbvopt

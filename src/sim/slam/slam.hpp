@@ -1,0 +1,42 @@
+// Simultaneous localisation and mapping along a drive.
+#pragma once
+
+#include <cstdint>
+
+#include "nbvopt/sim/localisation.hpp"
+#include "nbvopt/sim/scene.hpp"
+#include "nbvopt/sim/trajectory.hpp"
+#include "sim/odometry/odometry.hpp"
+#include "sim/odometry/position_errors.hpp"
+#include "sim/slam/particle_filter.hpp"
+
+namespace nbvopt {
+
+/// Follows a drive with a lidar and corrects the wheels, as slam_gmapping does for ROS.
+class Slam {
+ public:
+  /// Throws InputError when the lidar sees nothing from the start. All must outlive this.
+  Slam(const Scene& scene, const Trajectory& trajectory, const Odometry& odometry,
+       const LocalisationOptions& options, std::uint64_t seed);
+
+  /// T_map_base of the best particle after the latest scan up to that time, by what the wheels told
+  /// then. Times must not go back.
+  PlanarPose T_map_odom(double time_s);
+
+  std::uint64_t scan_count() const { return scans_; }    ///< processed so far, without the first
+  double computing_ms() const { return computing_ms_; }  ///< that they took, all in all
+  const PositionError& errors() const { return errors_.summary(); }  ///< right after them
+
+ private:
+  const Trajectory& trajectory_;
+  const Odometry& odometry_;
+  SimulatedLidar lidar_;
+  double lidar_range_m_;
+  ParticleFilter filter_;
+  std::size_t scans_ = 0;
+  PositionErrors errors_;
+  double computing_ms_ = 0.0;
+  PlanarPose T_map_odom_;
+};
+
+}  // namespace nbvopt
