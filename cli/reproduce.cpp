@@ -129,7 +129,8 @@ void set_up_reproduce(CLI::App& app) {
   add_whole_number(*command, "--seed", experiment.seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of explorations and searches");
   add_number(*command, "--duration-max", experiment.duration_max_s, "SECONDS",
-             "end explorations after this, for short trials [3600; 1615 in willowgarage]");
+             "end explorations after this, for short trials [3600; 1615 in willowgarage; in 3D as "
+             "long as the paper's]");
   command->add_flag("--dry-run", options->dry_run,
                     "print the commands, one a line, and their number");
   const CLI::App* worker = add_worker(*command, {worlds, out});
@@ -137,7 +138,8 @@ void set_up_reproduce(CLI::App& app) {
       "Explores from every start once, then replays each trajectory with the camera still, with\n"
       "the paper's grid and with auto for t = 0.2, 0.5 and 1.0 s, with a grid over three joints "
       "and\n"
-      "random views for t = 0.5 s. Prints table.md and writes it to --out, with table.csv,\n"
+      "random views for t = 0.5 s. Explores in 3D, too, in both forms, with the camera still and\n"
+      "t = 0.5 s. Prints table.md and writes it to --out, with table.csv,\n"
       "prediction.csv and table.json. What is done already, by the same command, is not run "
       "again.\n"
       "Example: nbvopt reproduce --worlds worlds --out reproduction");

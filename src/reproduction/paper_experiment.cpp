@@ -5,6 +5,7 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "reproduction/paper_tables.hpp"
 
 namespace nbvopt {
 namespace {
@@ -44,12 +45,30 @@ fs::path world_of(const ExperimentEnvironment& environment, const fs::path& worl
   return world;
 }
 
+double duration_max_s(const ExperimentEnvironment& environment, ExplorerKind explorer) {
+  if (explorer == ExplorerKind::plane) return environment.duration_max_s;
+  const auto papers = paper_tables();
+  return std::ranges::find(papers, environment.paper_name, &PaperEnvironment::name)
+      ->spatial.duration_s;
+}
+
+std::string start_name(const Unit& unit) {
+  return std::string(unit.environment->name) + '-' + std::to_string(unit.start) + '-';
+}
+
+/// What the names of the units of an explorer have before the rest.
+std::string explorer_prefix(ExplorerKind explorer) {
+  return explorer == ExplorerKind::plane ? "" : std::string(enum_name(explorer)) + '-';
+}
+
 Unit drive_unit(const ExperimentOptions& options, const ExperimentEnvironment& environment,
-                std::size_t start) {
+                std::size_t start, ExplorerKind explorer) {
   Unit unit;
-  unit.name = std::string(environment.name) + '-' + std::to_string(start) + "-trajectory";
   unit.environment = &environment;
   unit.start = start;
+  unit.explorer = explorer;
+  unit.name = start_name(unit) + explorer_prefix(explorer) + "trajectory";
+  const double longest_s = duration_max_s(environment, explorer);
   unit.simulation = {
       .world = {world_of(environment, options.worlds_folder), options.world, {}},
       .trajectory = options.folder.units() / (unit.name + ".csv"),
@@ -57,19 +76,38 @@ Unit drive_unit(const ExperimentOptions& options, const ExperimentEnvironment& e
       .setting = DriveSetting{
           .start = environment.starts[start - 1],
           .lidar_range_m = environment.lidar_range_m,
-          .duration_max_s = std::min(environment.duration_max_s,
-                                     options.duration_max_s.value_or(environment.duration_max_s))}};
+          .duration_max_s = std::min(longest_s, options.duration_max_s.value_or(longest_s)),
+          .explorer = explorer}};
   return unit;
 }
 
 Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
                   const EpisodeSetting& setting) {
   Unit unit = units[drive];
-  unit.name = std::string(unit.environment->name) + '-' + std::to_string(unit.start) + '-' +
-              setting.mode + gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
+  unit.name = start_name(unit) + explorer_prefix(unit.explorer) + setting.mode +
+              gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
   unit.drive = drive;
   unit.simulation.setting = setting;
   return unit;
+}
+
+/// The drives of an explorer from all starts, then what is run on them.
+void append_units(std::vector<Unit>& units, const ExperimentOptions& options, ExplorerKind explorer,
+                  std::span<const EpisodeSetting> settings) {
+  const std::size_t first = units.size();
+  for (const ExperimentEnvironment* environment : chosen_environments(options.environments)) {
+    const auto starts =
+        std::min(environment->starts.size(), static_cast<std::size_t>(options.starts));
+    for (std::size_t start = 1; start <= starts; ++start) {
+      units.push_back(drive_unit(options, *environment, start, explorer));
+    }
+  }
+  const std::size_t end = units.size();
+  for (std::size_t drive = first; drive < end; ++drive) {
+    for (const EpisodeSetting& setting : settings) {
+      units.push_back(episode_unit(units, drive, setting));
+    }
+  }
 }
 
 EpisodeSetting expected(double motion_time_s) {
@@ -126,18 +164,9 @@ std::span<const EpisodeSetting> episode_settings() {
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
   std::vector<Unit> units;
-  for (const ExperimentEnvironment* environment : chosen_environments(options.environments)) {
-    const auto starts =
-        std::min(environment->starts.size(), static_cast<std::size_t>(options.starts));
-    for (std::size_t start = 1; start <= starts; ++start) {
-      units.push_back(drive_unit(options, *environment, start));
-    }
-  }
-  const std::size_t drives = units.size();
-  for (std::size_t drive = 0; drive < drives; ++drive) {
-    for (const EpisodeSetting& setting : episode_settings()) {
-      units.push_back(episode_unit(units, drive, setting));
-    }
+  append_units(units, options, ExplorerKind::plane, episode_settings());
+  for (const ExplorerKind explorer : kSpatialExplorers) {
+    append_units(units, options, explorer, {&kSpatialSetting, 1});
   }
   return units;
 }

@@ -2,6 +2,7 @@
 // and what is run there.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -32,6 +33,12 @@ std::span<const ExperimentEnvironment> experiment_environments();
 /// compared with.
 std::span<const EpisodeSetting> episode_settings();
 
+/// What is run on the drives of explorers in space, which the paper calls 3D: its own test.
+inline const EpisodeSetting kSpatialSetting{"static", 0.5};
+
+/// Those explorers: the paper's, as it was published, and as the paper's authors ran it.
+inline constexpr std::array kSpatialExplorers{ExplorerKind::volume, ExplorerKind::volume_tekniker};
+
 /// Where the things of a reproduction lie in its folder.
 struct ReproductionFolder {
   std::filesystem::path root;
@@ -48,7 +55,8 @@ struct ExperimentOptions {
   std::vector<std::string> environments;  ///< by name; empty: all
   std::int64_t starts = 3;                ///< the first so many of each environment
   std::int64_t seed = 1;
-  std::optional<double> duration_max_s;  ///< of explorations; none: as the environment has it
+  /// Of explorations; none: as the environment has it, in space as the paper's Table 2 has it.
+  std::optional<double> duration_max_s;
 };
 
 /// A drive that records a trajectory, or an episode on it.
@@ -59,11 +67,14 @@ struct Unit {
   std::size_t drive = 0;  ///< of an episode: the unit that records its trajectory
   SimulationUnit simulation;
 
+  ExplorerKind explorer = ExplorerKind::plane;  ///< of the drive
+
   bool is_drive() const { return std::holds_alternative<DriveSetting>(simulation.setting); }
 };
 
-/// All units, drives before the episodes; their worlds have not been read. Throws UsageError for an
-/// environment that is not known, InputError for a world that is not there.
+/// All units, each drive before its episodes, those of explorers in space last; their worlds have
+/// not been read. Throws UsageError for an environment that is not known, InputError for a world
+/// that is not there.
 std::vector<Unit> experiment_units(const ExperimentOptions& options);
 
 /// The command that does a unit's work by itself, as a shell would take it.

@@ -18,7 +18,8 @@ namespace {
 Json to_json(const DriveSetting& drive) {
   return {{"start", {drive.start.x_m, drive.start.y_m, drive.start.yaw_rad}},
           {"lidar_range_m", drive.lidar_range_m},
-          {"duration_max_s", drive.duration_max_s}};
+          {"duration_max_s", drive.duration_max_s},
+          {"explorer", enum_name(drive.explorer)}};
 }
 
 Json to_json(const EpisodeSetting& episode) {
@@ -31,7 +32,8 @@ DriveSetting drive_setting_of(const Json& json) {
   const auto start = json.at("start").get<std::array<double, 3>>();
   return {.start = {start[0], start[1], start[2]},
           .lidar_range_m = json.at("lidar_range_m").get<double>(),
-          .duration_max_s = json.at("duration_max_s").get<double>()};
+          .duration_max_s = json.at("duration_max_s").get<double>(),
+          .explorer = enum_value<ExplorerKind>(json.at("explorer").get<std::string>()).value()};
 }
 
 EpisodeSetting episode_setting_of(const Json& json) {
@@ -73,7 +75,9 @@ std::vector<std::string> arguments(const DriveSetting& drive, const std::string&
           "--lidar-range",
           format_number(drive.lidar_range_m),
           "--duration-max",
-          format_number(drive.duration_max_s)};
+          format_number(drive.duration_max_s),
+          "--explore",
+          std::string(enum_name(drive.explorer))};
 }
 
 std::vector<std::string> arguments(const EpisodeSetting& episode, const std::string& trajectory) {

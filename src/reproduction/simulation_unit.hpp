@@ -9,6 +9,7 @@
 #include "core/json.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
 #include "nbvopt/sim/world.hpp"
+#include "sim/explorer_kind.hpp"
 
 namespace nbvopt {
 
@@ -24,6 +25,7 @@ struct DriveSetting {
   StartPose start;
   double lidar_range_m;   ///< where beams are cropped for the map in the plane
   double duration_max_s;  ///< it ends then
+  ExplorerKind explorer = ExplorerKind::plane;
 };
 
 /// The camera's mode in one episode, the time t that it may move for and the gain that it seeks.

@@ -39,24 +39,28 @@ class ResultIndex {
     return std::ranges::find(units_, &environment, &Unit::environment) != units_.end();
   }
 
-  Episodes episodes(const ExperimentEnvironment& environment, const EpisodeSetting& setting) const {
+  Episodes episodes(const ExperimentEnvironment& environment, const EpisodeSetting& setting,
+                    ExplorerKind explorer = ExplorerKind::plane) const {
     Episodes found;
     for (std::size_t i = 0; i < units_.size(); ++i) {
       const Unit& unit = units_[i];
       const auto* episode = std::get_if<EpisodeSetting>(&unit.simulation.setting);
-      if (unit.environment == &environment && episode && *episode == setting &&
-          results_[i].episode) {
+      if (unit.environment == &environment && unit.explorer == explorer && episode &&
+          *episode == setting && results_[i].episode) {
         found.emplace(unit.start, *results_[i].episode);
       }
     }
     return found;
   }
 
-  /// The most that any episode on that drive has learnt.
+  /// The most that any episode on that drive in the plane has learnt.
   double best_information(const ExperimentEnvironment& environment, std::size_t start) const {
     double best = 0.0;
     for (std::size_t i = 0; i < units_.size(); ++i) {
-      if (units_[i].environment != &environment || units_[i].start != start) continue;
+      if (units_[i].environment != &environment || units_[i].start != start ||
+          units_[i].explorer != ExplorerKind::plane) {
+        continue;
+      }
       if (results_[i].episode) best = std::max(best, information(*results_[i].episode));
     }
     return best;
@@ -164,6 +168,25 @@ void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& pap
   rows.push_back(paper_row(paper, "3D", std::nullopt, remark, paper.spatial));
 }
 
+/// Another drive is compared with that in the plane from the same start. The paper's figures stand
+/// beside the first of the two.
+ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment& environment,
+                      ExplorerKind explorer, const ResultIndex& index) {
+  ResultRow row;
+  row.environment = paper_label(paper);
+  row.test = explorer == ExplorerKind::volume ? "3D" : "3D tekniker";
+  row.motion_time_s = kSpatialSetting.motion_time_s;
+  if (explorer == ExplorerKind::volume) row.paper = &paper.spatial;
+  const Episodes episodes = index.episodes(environment, kSpatialSetting, explorer);
+  if (episodes.empty()) {
+    row.remark = "missing";
+    return row;
+  }
+  set_figures(row, episodes);
+  set_comparison(row, episodes, index.episodes(environment, kSpatialSetting));
+  return row;
+}
+
 void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
                  const ExperimentEnvironment& environment, const ResultIndex& index) {
   for (const EpisodeSetting& setting : episode_settings()) {
@@ -188,7 +211,9 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
     }
     rows.push_back(std::move(row));
   }
-  rows.push_back(paper_row(paper, "3D", std::nullopt, "not simulated", paper.spatial));
+  for (const ExplorerKind explorer : kSpatialExplorers) {
+    rows.push_back(spatial_row(paper, environment, explorer, index));
+  }
 }
 
 std::vector<ResultRow> result_rows(const ResultIndex& index) {
@@ -240,7 +265,9 @@ ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitRe
   ReproductionTable table{result_rows(index), prediction_rows(index), {}, {}};
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!results[i].is_there()) table.missing.push_back(units[i].name);
-    if (results[i].drive && results[i].drive->status != ExplorationStatus::complete) {
+    // Those in space end with the paper's, seldom by themselves.
+    if (results[i].drive && units[i].explorer == ExplorerKind::plane &&
+        results[i].drive->status != ExplorationStatus::complete) {
       table.incomplete.push_back(units[i].name);
     }
   }

@@ -15,7 +15,7 @@ namespace nbvopt {
 /// Which test of which environment a row is about.
 struct RowLabel {
   std::string environment;
-  std::string test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>" or "3D"
+  std::string test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>", "3D" or "3D tekniker"
   std::optional<double> motion_time_s;
 };
 

@@ -190,7 +190,9 @@ Figures are means over the starts. Every mode captures a frame each t, so each t
 (2D) of its own, which the rows of that t below it are compared with; of a start that lacks one of
 both, the percentages know nothing. `grid` is the paper's search (pan only, 0.8 rad) and stands
 beside its 2D+optimisation, `grid-3` is that search over three joints; `auto` and `random` have no
-counterpart in the paper, and 3D, another exploration, is printed from it. Voxels are occupied ones
+counterpart in the paper. 3D is another exploration with a still camera: it drives as long as the
+paper's did and is compared with 2D from the same start at the same t; 3D tekniker is the same as
+the paper's authors changed and ran it. Voxels are occupied ones
 with u < 1 at the finest resolution, info is Eq. 11 over them; `as_paper_counts` counts as the
 authors' code does, inner nodes of the tree included. `auto` seeks the paper's gain, `auto expected`
 the expected one. `oracle` cheats: it takes the best of 100 random views by what they truly bring at

@@ -10,18 +10,22 @@
 namespace nbvopt {
 namespace {
 
-Json answer(const SimulationUnit& unit, const DriveSetting& setting, const Scene& scene) {
+Json answer(const SimulationUnit& unit, const DriveSetting& setting, const Scene& scene,
+            const Eigen::AlignedBox2d& world_map_m) {
   DriveOptions options;
   options.start = {setting.start.x_m, setting.start.y_m, setting.start.yaw_rad};
   options.exploration.mapping_range_m = setting.lidar_range_m;
   options.exploration.duration_max_s = setting.duration_max_s;
   options.exploration.seed = unit.seed;
+  options.exploration.world_map_m = world_map_m;
+  options.explorer = setting.explorer;
   const Drive drive = make_drive(scene, options);
   write_trajectory(drive.trajectory, unit.trajectory);
   return to_json(report_of(drive, options, unit.world.file.string()));
 }
 
-Json answer(const SimulationUnit& unit, const EpisodeSetting& setting, const Scene& scene) {
+Json answer(const SimulationUnit& unit, const EpisodeSetting& setting, const Scene& scene,
+            const Eigen::AlignedBox2d& /*world_map_m*/) {
   SimulationOptions options;
   options.world = unit.world.file.string();
   options.mode = setting.mode;
@@ -39,8 +43,8 @@ UnitRunner::~UnitRunner() = default;
 
 Json UnitRunner::run(const SimulationUnit& unit) {
   const Scene& in = scene(unit.world);
-  Json result =
-      std::visit([&](const auto& setting) { return answer(unit, setting, in); }, unit.setting);
+  Json result = std::visit(
+      [&](const auto& setting) { return answer(unit, setting, in, world_map_m_); }, unit.setting);
   if (!warnings_.empty() && std::holds_alternative<DriveSetting>(unit.setting)) {
     result["warnings"] = warnings_;
   }
@@ -56,6 +60,7 @@ const Scene& UnitRunner::scene(const WorldSource& world) {
       throw InputError(world.file.string() + " has changed since the reproduction began");
     }
     scene_ = std::make_unique<Scene>(read.mesh);
+    world_map_m_ = seen_from_above(read.bounds_m);
     warnings_ = std::move(read.warnings);
     world_file_ = world.file;
     world_digest_ = world.digest;

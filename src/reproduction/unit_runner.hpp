@@ -1,6 +1,7 @@
 // Answers units of work: what a worker of the reproduction does between two lines.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ class UnitRunner {
   std::filesystem::path world_file_;
   std::string world_digest_;
   std::unique_ptr<Scene> scene_;
+  Eigen::AlignedBox2d world_map_m_;    ///< of the world, as explorations take it
   std::vector<std::string> warnings_;  ///< of the world
 };
 

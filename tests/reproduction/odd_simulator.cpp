@@ -1,7 +1,7 @@
 // A worker of the reproduction that simulates nothing: it notes what it is asked in a file and
 // answers figures of mode and t at once. It misbehaves where its arguments say so.
 //
-//   odd_simulator CALLS [UNIT DEED]...    UNIT: drive, or mode-t such as auto-0.5
+//   odd_simulator CALLS [UNIT DEED]...    UNIT: drive, drive-3d, or mode-t such as auto-0.5
 //
 // Deeds: throw, abort, die-once, interrupt-once (its coordinator).
 #include <unistd.h>
@@ -25,8 +25,11 @@ namespace nbvopt {
 namespace {
 
 std::string name_of(const SimulationUnit& simulation) {
+  if (const auto* drive = std::get_if<DriveSetting>(&simulation.setting)) {
+    if (drive->explorer == ExplorerKind::plane) return "drive";
+    return "drive-" + std::string(enum_name(drive->explorer));
+  }
   const auto* episode = std::get_if<EpisodeSetting>(&simulation.setting);
-  if (episode == nullptr) return "drive";
   return episode->mode + gain_suffix(*episode, '-') + '-' + format_number(episode->motion_time_s);
 }
 

@@ -24,7 +24,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
-const std::size_t kUnits = 1 + episode_settings().size();  // a drive, and what runs on it
+const std::size_t kPlaneUnits = 1 + episode_settings().size();  // a drive, and what runs on it
+const std::size_t kUnits = kPlaneUnits + 2 * kSpatialExplorers.size();
 using Deeds = std::vector<std::string>;
 
 class ReproductionRun : public testing::Test {
@@ -153,9 +154,9 @@ TEST_F(ReproductionRun, AnotherVersionRunsAgain) {
 TEST_F(ReproductionRun, ALostOrChangedTrajectoryIsMadeAgainWithItsEpisodes) {
   run(options());
   fs::remove(trajectory());
-  EXPECT_EQ(run(options()).size(), kUnits);
+  EXPECT_EQ(run(options()).size(), kPlaneUnits);
   std::ofstream(trajectory(), std::ios::app) << "9999,0,0,0,0\n";
-  EXPECT_EQ(run(options()).size(), kUnits);
+  EXPECT_EQ(run(options()).size(), kPlaneUnits);
 }
 
 TEST_F(ReproductionRun, AFailedUnitLeavesAHoleAndIsTriedAgain) {
@@ -186,9 +187,10 @@ TEST_F(ReproductionRun, AUnitWhoseWorkerWasKilledIsRunAgain) {
 }
 
 TEST_F(ReproductionRun, WithoutItsDriveNoEpisodeIsRun) {
-  EXPECT_THAT(run(options(), {"drive", "throw"}), ElementsAre("drive"));
-  EXPECT_EQ(result.failed, 1U);
-  EXPECT_EQ(table(options()).missing.size(), kUnits);
+  EXPECT_THAT(run(options(), {"drive", "throw", "drive-3d", "throw"}, 1),
+              ElementsAre("drive", "drive-3d", "drive-3d-tekniker", "static-0.5"));
+  EXPECT_EQ(result.failed, 2U);
+  EXPECT_EQ(table(options()).missing.size(), kUnits - 2);
 }
 
 TEST_F(ReproductionRun, AStopLosesNothing) {
