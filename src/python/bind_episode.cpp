@@ -109,8 +109,8 @@ void bind_episode(py::module_& module) {
                       "was planned: the paper's experiment.")
       .def_property_readonly("captures", &capture_columns,
                              "A dict of arrays, an entry a capture: the keys and numbers of "
-                             "`nbvopt simulate --metrics`; base is (N, 4): x, y, z, yaw. NaN is "
-                             "what that leaves null.")
+                             "`nbvopt simulate --metrics`; base and true_base are (N, 4): x, y, "
+                             "z, yaw. NaN is what that leaves null.")
       .def_property_readonly(
           "summary",
           [](const Episode& episode) {

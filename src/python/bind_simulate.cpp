@@ -12,6 +12,7 @@
 #include "nbvopt/core/error.hpp"
 #include "python/arguments.hpp"
 #include "python/sim_bindings.hpp"
+#include "sim/localisation/localisation_output.hpp"
 
 namespace nbvopt::python {
 namespace {
@@ -83,7 +84,8 @@ std::unique_ptr<Episode> simulate(
     const std::optional<DriveArgument>& replayed, double lidar_range_m, double duration_max_s,
     const std::string& mode, double motion_time_s, const py::object& joints, const Robot& robot,
     const std::optional<double>& capture_hz, bool charge_computing, double range_noise_m,
-    double resolution_m, std::int64_t seed, const Region& region) {
+    double resolution_m, std::int64_t seed, const Region& region, const std::string& pose_source,
+    double odometry_noise, bool score_map) {
   if (!start && !replayed) {
     throw InputError("give a start to explore from, or a trajectory to replay");
   }
@@ -101,6 +103,11 @@ std::unique_ptr<Episode> simulate(
                      .range_noise_m = range_noise_m,
                      .hazards = {},
                      .seed = seed_from(seed)};
+  LocalisationOptions& localisation = options.episode.localisation;
+  localisation.source = pose_source_of(pose_source);
+  localisation.odometry_noise = odometry_noise;
+  localisation.lidar_range_m = lidar_range_m;
+  options.episode.scores_map = score_map || localisation.source != PoseSource::truth;
   options.world = name_of(world_argument);
   Simulation simulation(options);
   const SharedWorld world = world_from(world_argument);
@@ -140,7 +147,10 @@ constexpr const char* kSimulateText =
     "charge_computing: let the base drive on while the computer maps and plans.\n"
     "range_noise_m: standard deviation of the camera's ranges.\n"
     "resolution_m: of the map's voxels.\n"
-    "seed: of exploration, noise, and modes that draw random numbers.\n\n"
+    "seed: of exploration, noise, and modes that draw random numbers.\n"
+    "pose_source: how the base knows where it is: \"truth\", \"odom\" (wheels that err, times "
+    "odometry_noise) or \"slam\" (wheels and lidar). score_map: judge the map by the world, which "
+    "is always done where poses err.\n\n"
     "ValueError: a mode that is not known, joints beyond their limits, a number out of range, and "
     "as explore(). What ends the episode before the drive does, Ctrl-C too, has the Map so far as "
     "its attribute `map`.";
@@ -166,7 +176,9 @@ void bind_simulate(py::module_& module) {
              py::arg_v("robot", Robot{}, "Robot()"), py::arg("capture_hz") = py::none(),
              py::arg("charge_computing") = false, py::arg("range_noise_m") = 0.0,
              py::arg("resolution_m") = defaults.resolution_m, py::arg("seed") = 1,
-             py::arg("region") = py::none(), kSimulateText);
+             py::arg("region") = py::none(), py::arg("pose_source") = "truth",
+             py::arg("odometry_noise") = defaults.episode.localisation.odometry_noise,
+             py::arg("score_map") = false, kSimulateText);
 }
 
 }  // namespace nbvopt::python

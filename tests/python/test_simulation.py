@@ -67,11 +67,12 @@ class EpisodeTest(SimulationTest):
                 [*start, "--goal", "1.3,0.8", "--goal", "1.1,0.7", "--mode", "random",
                  "--motion-time", "0.8", "--seed", "5", "--range-noise", "0.01",
                  "--resolution", "0.05", "--capture-hz", "3", "--lidar-range", "3",
-                 "--pan", "0.3", "--tilt", "-0.1", "--height", "0.5"],
+                 "--pan", "0.3", "--tilt", "-0.1", "--height", "0.5",
+                 "--pose-source", "slam", "--odometry-noise", "0.5"],
                 {"start": START, "goals": [(1.3, 0.8), (1.1, 0.7)], "mode": "random",
                  "motion_time_s": 0.8, "seed": 5, "range_noise_m": 0.01,
                  "resolution_m": 0.05, "capture_hz": 3, "lidar_range_m": 3,
-                 "joints": (0.3, -0.1, 0.5)},
+                 "joints": (0.3, -0.1, 0.5), "pose_source": "slam", "odometry_noise": 0.5},
             ),
         ):  # fmt: skip
             with self.subTest(options):
@@ -119,6 +120,7 @@ class EpisodeTest(SimulationTest):
             (".*resolution.*", {"start": START, "resolution_m": -1}),
             ("height is 3 m.*", {"start": START, "joints": (0, 0, 3)}),
             ("seed is -1, .*", {"start": START, "seed": -1}),
+            ("there is no pose source 'gps'.*", {"start": START, "pose_source": "gps"}),
         ):
             with self.subTest(message):
                 self.assert_refused(message, nbvopt.simulate, self.world, **options)

@@ -30,7 +30,7 @@ std::string to_string(PoseSource source) { return std::string(enum_name(source))
 
 PoseSource pose_source_of(const std::string& name) {
   const auto source = enum_value<PoseSource>(name);
-  if (!source) throw InputError("the pose source '" + name + "' is not known");
+  if (!source) throw InputError("there is no pose source '" + name + "': give truth, odom or slam");
   return *source;
 }
 
