@@ -55,8 +55,11 @@ TEST(EpisodeReport, KeepsWhatPosesAndMapsWereWorth) {
   slam.pose_source = PoseSource::slam;
   slam.summary.localisation = {
       .captures = {0.1, 0.2, 0.05}, .scans = {0.01, 0.02, 0.005}, .scan_count = 7, .scan_ms = 12.5};
-  slam.summary.map_score = {
-      .occupied_voxels = 99, .precision = 0.9, .recall = 0.8, .true_information = 1.0 / 3.0};
+  slam.summary.map_score = {.occupied_voxels = 99,
+                            .precision = 0.9,
+                            .recall = 0.8,
+                            .true_information = 1.0 / 3.0,
+                            .shared_information = 0.25};
   const Json json = to_json(slam);
   EXPECT_EQ(json.at("pose_source"), "slam");
   EXPECT_EQ(json.at("map_score").at("recall"), 0.8);

@@ -16,7 +16,12 @@ struct MapScore {
   /// The share of the voxels that the same views occupy when they are entered from where they were
   /// truly taken, for which the map has an occupied voxel there or beside one of its faces.
   double recall = 1.0;
-  double true_information = 0.0;  ///< Eq. 11 over the true voxels alone
+  /// Eq. 11 over the true voxels alone. A surface that is drawn twice within a voxel's edge counts
+  /// twice.
+  double true_information = 0.0;
+  /// Eq. 11 over the voxels that the same views occupy from where they were truly taken: each part
+  /// of a surface at most once.
+  double shared_information = 0.0;
 };
 
 /// The score of a map; `of_true_poses` is the map that the same

@@ -51,14 +51,16 @@ Json to_json(const MapScore& score) {
   return {{"occupied_voxels", score.occupied_voxels},
           {"precision", score.precision},
           {"recall", score.recall},
-          {"true_information", score.true_information}};
+          {"true_information", score.true_information},
+          {"shared_information", score.shared_information}};
 }
 
 MapScore map_score_of(const Json& json) {
   return {.occupied_voxels = json.at("occupied_voxels").get<std::uint64_t>(),
           .precision = json.at("precision").get<double>(),
           .recall = json.at("recall").get<double>(),
-          .true_information = json.at("true_information").get<double>()};
+          .true_information = json.at("true_information").get<double>(),
+          .shared_information = json.at("shared_information").get<double>()};
 }
 
 std::string to_text(const LocalisationRecord& record, PoseSource source) {
@@ -75,7 +77,8 @@ std::string to_text(const MapScore& score) {
          " % of the occupied voxels are at a surface (precision), " +
          decimal(100.0 * score.recall, 1) +
          " % of what the views showed is in the map (recall), information of true voxels " +
-         decimal(score.true_information, 1) + '\n';
+         decimal(score.true_information, 1) + ", of voxels that true poses give, too, " +
+         decimal(score.shared_information, 1) + '\n';
 }
 
 }  // namespace nbvopt

@@ -53,12 +53,16 @@ MapScore score_map(const UncertaintyMap& map, const UncertaintyMap& of_true_pose
   std::uint64_t true_voxels = 0;
   for_each_occupied_voxel(map, [&](VoxelKey key, float uncertainty) {
     ++score.occupied_voxels;
+    const double information = 1.0 - uncertainty;  // Equation (11)
+    if (of_true_poses.at(key).state == VoxelState::occupied) {
+      score.shared_information += information;
+    }
     if (!scene.has_surface_within(map.lattice().centre_m(key),
                                   static_cast<float>(map.resolution_m()))) {
       return;
     }
     ++true_voxels;
-    score.true_information += 1.0 - uncertainty;  // Equation (11)
+    score.true_information += information;
   });
   score.precision = share(true_voxels, score.occupied_voxels);
 

@@ -59,6 +59,7 @@ TEST(LocalisedEpisode, IsWhatItWasWhereThePoseIsKnown) {
   EXPECT_EQ(after.summary.map_score->recall, 1.0);
   EXPECT_NEAR(after.summary.map_score->true_information, after.summary.information,
               1e-6 * after.summary.information);
+  EXPECT_EQ(after.summary.map_score->shared_information, after.summary.map_score->true_information);
   for (const Capture& capture : after.captures) {
     EXPECT_EQ(capture.T_map_base.matrix(), capture.T_world_base.matrix());
   }

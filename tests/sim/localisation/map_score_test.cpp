@@ -40,6 +40,7 @@ TEST(MapScore, TellsTrueVoxelsFromOthers) {
   EXPECT_DOUBLE_EQ(score.precision, 0.6);
   EXPECT_DOUBLE_EQ(score.recall, 1.0);
   EXPECT_DOUBLE_EQ(score.true_information, 3 * 0.75);
+  EXPECT_DOUBLE_EQ(score.shared_information, 5 * 0.75);
 }
 
 TEST(MapScore, CountsVoxelsOfPrunedLeaves) {
@@ -58,6 +59,7 @@ TEST(MapScore, RecallsWhatIsThereOrBeside) {
   const UncertaintyMap map = map_of({{1.04, 0.15, 0.55}, {1.14, 0.45, 0.55}, {1.14, 0.85, 0.55}});
   const MapScore score = score_map(map, truth, plate());
   EXPECT_DOUBLE_EQ(score.recall, 0.5);
+  EXPECT_DOUBLE_EQ(score.shared_information, 0.75) << "the first";
   EXPECT_DOUBLE_EQ(score.precision, 1.0);
 }
 
