@@ -11,9 +11,11 @@
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
+#include "core/atomic_file.hpp"
 #include "core/folder.hpp"
 #include "experiment/worker.hpp"
 #include "nbvopt/core/error.hpp"
+#include "reproduction/page.hpp"
 #include "reproduction/reproduction_run.hpp"
 #include "reproduction/table.hpp"
 #include "reproduction/text.hpp"
@@ -77,8 +79,10 @@ void reproduce(ReproduceOptions options) {
   create_folder(folder.units());  // first: it is soon known whether that can be done
   read_worlds(units);
   const std::size_t failed = run_units(units, options);
-  const ReproductionTable table = make_table(units, read_results(units, folder));
+  const std::vector<UnitResult> results = read_results(units, folder);
+  const ReproductionTable table = make_table(units, results);
   write_tables(table, folder.root);
+  write_file_atomically(folder.root / "report.html", to_html(table, units, results));
   print_answer(to_markdown(table));
   if (failed > 0) {
     throw InputError(std::to_string(failed) + " of " + std::to_string(units.size()) +
@@ -139,8 +143,9 @@ void set_up_reproduce(CLI::App& app) {
       "the paper's grid and with auto for t = 0.2, 0.5 and 1.0 s, with a grid over three joints "
       "and\n"
       "random views for t = 0.5 s. Explores in 3D, too, in both forms, with the camera still and\n"
-      "t = 0.5 s. Prints table.md and writes it to --out, with table.csv,\n"
-      "prediction.csv and table.json. What is done already, by the same command, is not run "
+      "t = 0.5 s. Prints table.md and writes it to --out, with report.html (all of it with charts\n"
+      "and maps), table.csv, comparison.csv, prediction.csv and table.json. What is done already,\n"
+      "by the same command, is not run "
       "again.\n"
       "Example: nbvopt reproduce --worlds worlds --out reproduction");
   command->callback([options, worker] {

@@ -29,19 +29,19 @@ std::string subtitle(const EpisodeReport& report) {
          std::to_string(std::llround(report.summary.information));
 }
 
-/// The known part of the map with a margin, as wide as the page, not higher than it is wide.
-TopView top_view(const UncertaintyMap& map) {
+/// The known part of the map with a margin, so wide on the page, not higher than it is wide.
+TopView top_view(const UncertaintyMap& map, const Eigen::Vector2d& top_left, double width) {
   constexpr double kMargin_m = 0.5;
   const KeyBox box = map.known_box().value_or(KeyBox{});
   const Eigen::Vector2d min_m =
       map.lattice().centre_m(box.min).head<2>() - Eigen::Vector2d::Constant(kMargin_m);
   const Eigen::Vector2d size_m =
       map.lattice().centre_m(box.max).head<2>() + Eigen::Vector2d::Constant(kMargin_m) - min_m;
-  const double width = kPageWidth - kLeft - kRight;
   const double points_per_metre = width / size_m.maxCoeff();
-  return {{kLeft, kTop, points_per_metre * size_m.x(), points_per_metre * size_m.y()},
-          min_m,
-          points_per_metre};
+  return {
+      {top_left.x(), top_left.y(), points_per_metre * size_m.x(), points_per_metre * size_m.y()},
+      min_m,
+      points_per_metre};
 }
 
 void draw_way(Canvas& canvas, const TopView& view, const std::vector<Capture>& captures) {
@@ -68,6 +68,22 @@ void draw_looks(Canvas& canvas, const TopView& view, const std::vector<Capture>&
         from, from + kLength * Eigen::Vector2d(z_sensor_map.x(), -z_sensor_map.y())};
     canvas.stroke_open(look, {style::kInk, 1.0});
   }
+}
+
+/// The map with what the robot did in it.
+void draw_map(Canvas& canvas, const TopView& view, const EpisodePlotInput& input) {
+  const auto grid = VoxelGrid::lazy(input.map);
+  const Capture& last = input.captures.back();
+  const double z_base_m = last.T_map_base.translation().z();
+  canvas.clipped(view.panel, [&] {
+    draw_voxels(canvas, view, *grid,
+                map_slice(input.map.lattice(), z_base_m, z_base_m + last.joints.height_m,
+                          input.robot.mast.height_max_m));
+    draw_way(canvas, view, input.captures);
+    draw_looks(canvas, view, input.captures, Mast(input.robot.mast));
+    draw_robot(canvas, view, last.T_map_base, style::kChosen);
+    draw_scale_bar(canvas, view);
+  });
 }
 
 void draw_legend(Canvas& canvas, double y) {
@@ -102,29 +118,25 @@ void draw_information(Canvas& canvas, const Rectangle& panel,
 }  // namespace
 
 std::string episode_plot_png(const EpisodePlotInput& input) {
-  const TopView view = top_view(input.map);
+  const TopView view = top_view(input.map, {kLeft, kTop}, kPageWidth - kLeft - kRight);
   const double below_map = view.panel.bottom() + kLegendHeight;
   Canvas canvas(kPageWidth, below_map + kChartHeight + kChartAxisHeight, kPixelsPerPoint);
   canvas.text({24.0, 40.0}, "What the robot has mapped", style::title());
   canvas.text({24.0, 62.0}, subtitle(input.report), style::note());
 
-  const auto grid = VoxelGrid::lazy(input.map);
-  const Capture& last = input.captures.back();
-  const double z_base_m = last.T_map_base.translation().z();
-  const Mast mast(input.robot.mast);
-  canvas.clipped(view.panel, [&] {
-    draw_voxels(canvas, view, *grid,
-                map_slice(input.map.lattice(), z_base_m, z_base_m + last.joints.height_m,
-                          input.robot.mast.height_max_m));
-    draw_way(canvas, view, input.captures);
-    draw_looks(canvas, view, input.captures, mast);
-    draw_robot(canvas, view, last.T_map_base, style::kChosen);
-    draw_scale_bar(canvas, view);
-  });
+  draw_map(canvas, view, input);
   draw_axes(canvas, view);
   draw_legend(canvas, view.panel.bottom() + 64.0);
   draw_information(canvas, {kLeft, below_map, kPageWidth - kLeft - kRight, kChartHeight},
                    input.captures);
+  return canvas.png();
+}
+
+std::string episode_map_png(const EpisodePlotInput& input) {
+  constexpr double kWidth = 420.0;
+  const TopView view = top_view(input.map, {0.0, 0.0}, kWidth);
+  Canvas canvas(view.panel.width, view.panel.height, kPixelsPerPoint);
+  draw_map(canvas, view, input);
   return canvas.png();
 }
 

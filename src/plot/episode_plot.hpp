@@ -22,4 +22,7 @@ struct EpisodePlotInput {
 /// Draws the picture: the bytes of a PNG file.
 std::string episode_plot_png(const EpisodePlotInput& input);
 
+/// The map alone with the robot's way and looks, small, to stand beside others.
+std::string episode_map_png(const EpisodePlotInput& input);
+
 }  // namespace nbvopt

@@ -1,6 +1,7 @@
 #include "plot/line_chart.hpp"
 
 #include <cmath>
+#include <ranges>
 
 #include "plot/style.hpp"
 
@@ -73,7 +74,8 @@ double ChartAxis::share(double value) const {
 }
 
 void draw_line_chart(Canvas& canvas, const Rectangle& panel, const ChartAxis& x_axis,
-                     const ChartAxis& y_axis, const std::vector<ChartLine>& lines) {
+                     const ChartAxis& y_axis, const std::vector<ChartLine>& lines,
+                     const std::vector<ChartBand>& bands) {
   constexpr double kRoom = 6.0;  // for marks on the edge
   const auto to_x = [&](double value) { return panel.x + x_axis.share(value) * panel.width; };
   const auto to_y = [&](double value) {
@@ -82,12 +84,19 @@ void draw_line_chart(Canvas& canvas, const Rectangle& panel, const ChartAxis& x_
   draw_grid(canvas, panel, x_axis, y_axis);
   const Rectangle roomy{panel.x - kRoom, panel.y - kRoom, panel.width + 2.0 * kRoom,
                         panel.height + 2.0 * kRoom};
+  const auto append = [&](Line& points, const auto& of) {
+    for (const Eigen::Vector2d& point : of) points.emplace_back(to_x(point.x()), to_y(point.y()));
+  };
   canvas.clipped(roomy, [&] {
+    for (const ChartBand& band : bands) {
+      Line outline;
+      append(outline, band.lower);
+      append(outline, std::views::reverse(band.upper));
+      canvas.fill(outline, band.colour);
+    }
     for (const ChartLine& line : lines) {
       Line points;
-      for (const Eigen::Vector2d& point : line.points) {
-        points.emplace_back(to_x(point.x()), to_y(point.y()));
-      }
+      append(points, line.points);
       draw_line(canvas, points, line);
     }
   });

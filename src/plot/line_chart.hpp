@@ -35,10 +35,18 @@ struct ChartLine {
   std::size_t first_mark = 0;
 };
 
-/// Draws lines, the last on top, over their grid; the axes' texts lie outside the panel. What lies
-/// beyond the axes' ends is cut.
+/// What lies between two lines of the same x.
+struct ChartBand {
+  std::vector<Eigen::Vector2d> lower;  ///< in the axes' units
+  std::vector<Eigen::Vector2d> upper;
+  Colour colour;
+};
+
+/// Draws bands below lines, the last on top, over their grid; the axes' texts lie outside the
+/// panel. What lies beyond the axes' ends is cut.
 void draw_line_chart(Canvas& canvas, const Rectangle& panel, const ChartAxis& x_axis,
-                     const ChartAxis& y_axis, const std::vector<ChartLine>& lines);
+                     const ChartAxis& y_axis, const std::vector<ChartLine>& lines,
+                     const std::vector<ChartBand>& bands = {});
 
 /// A short piece of a line with its mark in the middle, `left` its left end.
 void draw_line_sample(Canvas& canvas, const Eigen::Vector2d& left, double length,

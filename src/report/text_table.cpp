@@ -1,11 +1,11 @@
 #include "report/text_table.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace nbvopt {
 namespace {
-
-bool is_text(const TableCell& cell) { return std::holds_alternative<std::string>(cell); }
 
 std::string escaped(const std::string& text) {
   std::string escaped;
@@ -14,13 +14,6 @@ std::string escaped(const std::string& text) {
     escaped += letter;
   }
   return escaped;
-}
-
-std::string shown(const TableCell& cell, const TableColumn& column) {
-  if (is_text(cell)) return escaped(std::get<std::string>(cell));
-  const double value = std::get<double>(cell);
-  if (std::isnan(value)) return "-";
-  return std::isinf(value) ? "never" : column.show(value);
 }
 
 std::string quoted(const std::string& text) {
@@ -34,12 +27,28 @@ std::string quoted(const std::string& text) {
 }
 
 std::string exact(const TableCell& cell) {
-  if (is_text(cell)) return quoted(std::get<std::string>(cell));
+  if (is_text_cell(cell)) return quoted(std::get<std::string>(cell));
   const double value = std::get<double>(cell);
   return std::isnan(value) ? "" : format_number(value);
 }
 
 }  // namespace
+
+std::string p_digits(double value) {
+  if (value < 1e-15) return "< 1e-15";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", value);
+  return text.data();
+}
+
+bool is_text_cell(const TableCell& cell) { return std::holds_alternative<std::string>(cell); }
+
+std::string shown(const TableCell& cell, const TableColumn& column) {
+  if (is_text_cell(cell)) return std::get<std::string>(cell);
+  const double value = std::get<double>(cell);
+  if (std::isnan(value)) return "-";
+  return std::isinf(value) ? "never" : column.show(value);
+}
 
 std::string to_markdown(const TextTable& table) {
   std::string head = "|";
@@ -49,9 +58,9 @@ std::string to_markdown(const TextTable& table) {
     const TableColumn& column = table.columns[i];
     if (column.heading.empty()) continue;
     head += ' ' + escaped(column.heading) + " |";
-    rule += !table.rows.empty() && is_text(table.rows.front()[i]) ? " --- |" : " ---: |";
+    rule += !table.rows.empty() && is_text_cell(table.rows.front()[i]) ? " --- |" : " ---: |";
     for (std::size_t row = 0; row < lines.size(); ++row) {
-      lines[row] += ' ' + shown(table.rows[row][i], column) + " |";
+      lines[row] += ' ' + escaped(shown(table.rows[row][i], column)) + " |";
     }
   }
   std::string text = head + '\n' + rule + '\n';

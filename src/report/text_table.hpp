@@ -15,6 +15,9 @@ struct TableColumn {
   std::string (*show)(double) = grouped;  ///< a finite figure for people
 };
 
+/// Two significant digits, as p values are read; less than rounding knows is not told.
+std::string p_digits(double value);
+
 /// NaN is a figure that is missing.
 using TableCell = std::variant<std::string, double>;
 
@@ -22,6 +25,11 @@ struct TextTable {
   std::vector<TableColumn> columns;
   std::vector<std::vector<TableCell>> rows;  ///< a cell a column
 };
+
+bool is_text_cell(const TableCell& cell);
+
+/// A cell as people see it, in no language's quotes.
+std::string shown(const TableCell& cell, const TableColumn& column);
 
 /// Figures are rounded; "-" where they are missing, and "never" where they are infinite.
 std::string to_markdown(const TextTable& table);

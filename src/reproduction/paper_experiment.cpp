@@ -88,6 +88,11 @@ Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
               gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
   unit.drive = drive;
   unit.simulation.setting = setting;
+  // One picture a camera and environment, all from the same start.
+  constexpr double kDrawnMotionTime_s = 0.5;
+  if (unit.start == 1 && setting.motion_time_s == kDrawnMotionTime_s) {
+    unit.simulation.picture = unit.simulation.trajectory.parent_path() / (unit.name + ".png");
+  }
   return unit;
 }
 
@@ -160,6 +165,12 @@ std::span<const EpisodeSetting> episode_settings() {
       {"static", 1.0}, {"grid", 1.0},   {"auto", 1.0},   expected(1.0), {"oracle", 1.0},
   };
   return kSettings;
+}
+
+std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer) {
+  if (explorer == ExplorerKind::volume) return "3D";
+  if (explorer == ExplorerKind::volume_tekniker) return "3D tekniker";
+  return setting.mode == "static" ? "2D" : "2D+" + setting.mode + gain_suffix(setting, ' ');
 }
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {

@@ -72,6 +72,10 @@ struct Unit {
   bool is_drive() const { return std::holds_alternative<DriveSetting>(simulation.setting); }
 };
 
+/// How tables call what an episode tests: "2D", "2D+<mode>" or "2D+<mode> <gain>" on drives in the
+/// plane, "3D" or "3D tekniker" on those of explorers in space.
+std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer = ExplorerKind::plane);
+
 /// All units, each drive before its episodes, those of explorers in space last; their worlds have
 /// not been read. Throws UsageError for an environment that is not known, InputError for a world
 /// that is not there.

@@ -117,6 +117,7 @@ Json setting_json(const SimulationUnit& simulation) {
 Json to_json(const SimulationUnit& simulation) {
   Json json{{"world", to_json(simulation.world)},
             {"trajectory", simulation.trajectory.string()},
+            {"picture", simulation.picture.string()},
             {"seed", simulation.seed}};
   const bool is_drive = std::holds_alternative<DriveSetting>(simulation.setting);
   json[is_drive ? "drive" : "episode"] = setting_json(simulation);
@@ -127,6 +128,7 @@ SimulationUnit simulation_unit_of(const Json& json) {
   try {
     SimulationUnit simulation{.world = world_of(json.at("world")),
                               .trajectory = json.at("trajectory").get<std::string>(),
+                              .picture = json.value("picture", ""),
                               .seed = json.at("seed").get<std::uint64_t>(),
                               .setting = {}};
     if (json.contains("drive")) {

@@ -49,7 +49,8 @@ struct WorldSource {
 
 struct SimulationUnit {
   WorldSource world;
-  std::filesystem::path trajectory;  ///< that a drive records and an episode replays
+  std::filesystem::path trajectory;    ///< that a drive records and an episode replays
+  std::filesystem::path picture = {};  ///< of the map, that an episode draws; empty: none
   std::uint64_t seed = 1;
   std::variant<DriveSetting, EpisodeSetting> setting;
 };

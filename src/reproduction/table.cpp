@@ -85,14 +85,16 @@ Episodes shared_with(const Episodes& episodes, const Episodes& others) {
   return shared;
 }
 
-std::string test_name(const EpisodeSetting& setting) {
-  return setting.mode == "static" ? "2D" : "2D+" + setting.mode + gain_suffix(setting, ' ');
-}
-
 void set_figures(ResultRow& row, const Episodes& episodes) {
   row.starts = static_cast<double>(episodes.size());
   row.voxels = mean(episodes, voxels);
   row.information = mean(episodes, information);
+  const auto by_information = [](const auto& a, const auto& b) {
+    return information(a.second) < information(b.second);
+  };
+  const auto [least, most] = std::ranges::minmax_element(episodes, by_information);
+  row.information_least = information(least->second);
+  row.information_most = information(most->second);
   row.mean_information = mean(episodes, mean_information);
   row.duration_s = mean(episodes, duration_s);
   row.voxels_per_s = *row.voxels / *row.duration_s;
@@ -174,7 +176,7 @@ ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment
                       ExplorerKind explorer, const ResultIndex& index) {
   ResultRow row;
   row.environment = paper_label(paper);
-  row.test = explorer == ExplorerKind::volume ? "3D" : "3D tekniker";
+  row.test = test_name(kSpatialSetting, explorer);
   row.motion_time_s = kSpatialSetting.motion_time_s;
   if (explorer == ExplorerKind::volume) row.paper = &paper.spatial;
   const Episodes episodes = index.episodes(environment, kSpatialSetting, explorer);
@@ -262,7 +264,9 @@ std::vector<PredictionRow> prediction_rows(const ResultIndex& index) {
 
 ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results) {
   const ResultIndex index(units, results);
-  ReproductionTable table{result_rows(index), prediction_rows(index), {}, {}};
+  ReproductionTable table{.results = result_rows(index),
+                          .comparisons = compare_tests(units, results),
+                          .predictions = prediction_rows(index)};
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!results[i].is_there()) table.missing.push_back(units[i].name);
     // Those in space end with the paper's, seldom by themselves.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reproduction/paired_comparison.hpp"
 #include "reproduction/paper_tables.hpp"
 #include "reproduction/record.hpp"
 
@@ -27,6 +28,8 @@ struct ResultRow : RowLabel {
   std::optional<double> voxels;
   std::optional<double> voxels_percent;
   std::optional<double> information;
+  std::optional<double> information_least;  ///< of the starts
+  std::optional<double> information_most;
   std::optional<double> gain;
   std::optional<double> gain_percent;
   std::optional<double> mean_information;  ///< over the drive
@@ -51,9 +54,11 @@ struct PredictionRow : RowLabel {
 
 struct ReproductionTable {
   std::vector<ResultRow> results;
+  std::vector<PairedComparison> comparisons;
   std::vector<PredictionRow> predictions;
-  std::vector<std::string> missing;     ///< names of units without a result
-  std::vector<std::string> incomplete;  ///< names of explorations that ended by their time limit
+  std::vector<std::string> missing = {};  ///< names of units without a result
+  std::vector<std::string> incomplete =
+      {};  ///< names of explorations that ended by their time limit
 };
 
 /// The table of these units, whose results stand in their order. Environments that are not among

@@ -1,13 +1,12 @@
 #include "reproduction/text.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "core/atomic_file.hpp"
 #include "core/number.hpp"
-#include "report/text_table.hpp"
 
 namespace nbvopt {
 namespace {
@@ -51,6 +50,8 @@ constexpr Column<ResultRow> kResultColumns[] = {
     {"voxels", "voxels", Style::whole, own<&ResultRow::voxels>},
     {"voxels_percent", "voxels %", Style::percent, own<&ResultRow::voxels_percent>},
     {"information", "info", Style::whole, own<&ResultRow::information>},
+    {"information_least", "least", Style::whole, own<&ResultRow::information_least>},
+    {"information_most", "most", Style::whole, own<&ResultRow::information_most>},
     {"gain", "gain", Style::whole, own<&ResultRow::gain>},
     {"gain_percent", "gain %", Style::percent, own<&ResultRow::gain_percent>},
     {"duration_s", "duration (s)", Style::whole, own<&ResultRow::duration_s>},
@@ -92,74 +93,57 @@ constexpr Column<PredictionRow> kPredictionColumns[] = {
      [](const PredictionRow& row) { return finite(100.0 * row.record.bias()); }},
 };
 
-std::string rounded(double value, Style style) {
+std::string percent_digits(double value) { return decimal(value, 2) + "%"; }
+std::string ratio_digits(double value) { return decimal(value, 3); }
+
+std::string (*show_of(Style style))(double) {
   switch (style) {
     case Style::whole:
-      return grouped(value);
+      return grouped;
     case Style::percent:
-      return decimal(value, 2) + "%";
+      return percent_digits;
     case Style::ratio:
-      return decimal(value, 3);
+      return ratio_digits;
   }
-  return {};
-}
-
-std::string test_label(const RowLabel& label) {
-  if (!label.motion_time_s) return label.test;
-  return label.test + " (t=" + decimal(*label.motion_time_s, 1) + ")";
+  return grouped;
 }
 
 std::string own_remark(const ResultRow& row) { return row.remark; }
 std::string own_remark(const PredictionRow&) { return {}; }
 
-/// A remark stands where the first figure would.
 template <class Row>
-std::string markdown_row(const Row& row, std::span<const Column<Row>> columns) {
-  std::string text;
-  std::string remark = own_remark(row);
-  for (const Column<Row>& column : columns) {
-    if (column.heading == nullptr) continue;
-    const Figure figure = column.figure(row);
-    text += ' ' + (figure ? rounded(*figure, column.style) : std::exchange(remark, "")) + " |";
-  }
-  return text;
+std::string test_label(const Row& row) {
+  const std::string remark = own_remark(row);
+  return row.test + (row.motion_time_s ? " (t=" + decimal(*row.motion_time_s, 1) + ")" : "") +
+         (remark.empty() ? "" : ": " + remark);
 }
 
-/// An environment's name stands on its first row only, as in the paper.
+TableCell cell(const Figure& figure) {
+  return figure.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// For people an environment's name stands on its first row only, as in the paper.
 template <class Row>
-std::string markdown(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
-  std::string head = "| environment | test type |";
-  std::string rule = "| --- | --- |";
+TextTable text_table(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
+  TextTable table{{{"", "environment"},
+                   {"", "test type"},
+                   {"environment", ""},
+                   {"test", ""},
+                   {"motion_time_s", ""}},
+                  {}};
   for (const Column<Row>& column : columns) {
-    if (column.heading == nullptr) continue;
-    head += ' ' + std::string(column.heading) + " |";
-    rule += " ---: |";
+    table.columns.push_back(
+        {column.key, column.heading == nullptr ? "" : column.heading, show_of(column.style)});
   }
-  std::string text = head + '\n' + rule + '\n';
   std::string environment;
   for (const Row& row : rows) {
-    text += "| " + (row.environment == environment ? "" : row.environment) + " | " +
-            test_label(row) + " |" + markdown_row(row, columns) + '\n';
+    std::vector<TableCell>& cells = table.rows.emplace_back();
+    cells = {row.environment == environment ? "" : row.environment, test_label(row),
+             row.environment, row.test, cell(row.motion_time_s)};
+    for (const Column<Row>& column : columns) cells.push_back(cell(column.figure(row)));
     environment = row.environment;
   }
-  return text;
-}
-
-template <class Row>
-std::string csv(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
-  std::string text = "environment,test,motion_time_s";
-  for (const Column<Row>& column : columns) text += ',' + std::string(column.key);
-  text += '\n';
-  for (const Row& row : rows) {
-    text += row.environment + ',' + row.test + ',' +
-            (row.motion_time_s ? format_number(*row.motion_time_s) : "");
-    for (const Column<Row>& column : columns) {
-      const Figure figure = column.figure(row);
-      text += ',' + (figure ? format_number(*figure) : "");
-    }
-    text += '\n';
-  }
-  return text;
+  return table;
 }
 
 Json figure_json(const Figure& figure) { return figure ? Json(*figure) : Json(nullptr); }
@@ -178,31 +162,34 @@ Json json(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
   return all;
 }
 
-std::string list_note(const char* what, const std::vector<std::string>& names) {
-  if (names.empty()) return {};
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return std::string("\n") + what + text + ".\n";
-}
+}  // namespace
 
-constexpr const char* kResultNotes = R"(
-Figures are means over the starts. Every mode captures a frame each t, so each t has a still camera
-(2D) of its own, which the rows of that t below it are compared with; of a start that lacks one of
-both, the percentages know nothing. `grid` is the paper's search (pan only, 0.8 rad) and stands
-beside its 2D+optimisation, `grid-3` is that search over three joints; `auto` and `random` have no
-counterpart in the paper. 3D is another exploration with a still camera: it drives as long as the
-paper's did and is compared with 2D from the same start at the same t; 3D tekniker is the same as
-the paper's authors changed and ran it. Voxels are occupied ones
-with u < 1 at the finest resolution, info is Eq. 11 over them; `as_paper_counts` counts as the
-authors' code does, inner nodes of the tree included. `auto` seeks the paper's gain, `auto expected`
-the expected one. `oracle` cheats: it takes the best of 100 random views by what they truly bring at
-the base's next pose; the regret is what is missing to it at the same t. Mean info is the area below
-information over time by the duration, and "to 50 %" when the map knew half of what the best of all
-modes and t knew in the end on that drive; where a start never came so far, the cell is empty. Compare percentages with the paper's, never
-absolutes: geometry has no textures here, localisation is perfect and the exploration is our own.
+const char* const kResultNotes = R"(
+Figures are means over the starts, with the least and the most of them for the information. Every
+mode captures a frame each t, so each t has a still camera (2D) of its own, which the rows of that t
+below it are compared with; of a start that lacks one of both, the percentages know nothing. `grid`
+is the paper's search (pan only, 0.8 rad) and stands beside its 2D+optimisation, `grid-3` is that
+search over three joints; `auto` and `random` have no counterpart in the paper. 3D is another
+exploration with a still camera: it drives as long as the paper's did and is compared with 2D from
+the same start at the same t; 3D tekniker is the same as the paper's authors changed and ran it.
+Voxels are occupied ones with u < 1 at the finest resolution, info is Eq. 11 over them;
+`as_paper_counts` counts as the authors' code does, inner nodes of the tree included. `auto` seeks
+the paper's gain, `auto expected` the expected one. `oracle` cheats: it takes the best of 100 random
+views by what they truly bring at the base's next pose; the regret is what is missing to it at the
+same t. Mean info is the area below information over time by the duration, and "to 50 %" when the
+map knew half of what the best of all modes and t knew in the end on that drive; where a start never
+came so far, there is no such time. Compare percentages with the paper's, never absolutes: geometry
+has no textures here, localisation is perfect and the exploration is our own.
 )";
 
-constexpr const char* kPredictionNotes = R"(
+const char* const kComparisonNotes = R"(
+How much more information one test ends with than another from the same start, over all starts in
+all environments; better: from so many of them. 3D drives along other ways, and for longer. p is
+Wilcoxon's signed-rank test of these percentages, two-sided, then corrected for all rows after Holm.
+Starts in one environment are not independent of each other, so p is somewhat too small.
+)";
+
+const char* const kPredictionNotes = R"(
 The gain that a step's search predicted against the gain that its next capture realised, over all
 steps of all starts; the bias is how much more was predicted than came. Realised is what the same
 48 x 36 rays bring by Eq. 12 where the base has driven meanwhile, with the surfaces that are there:
@@ -210,27 +197,73 @@ the search took the base to stand and all that is unknown to be occupied; `auto 
 neither for granted.
 )";
 
-}  // namespace
+TextTable result_table(const ReproductionTable& table) {
+  return text_table<ResultRow>(table.results, kResultColumns);
+}
+
+TextTable prediction_table(const ReproductionTable& table) {
+  return text_table<PredictionRow>(table.predictions, kPredictionColumns);
+}
+
+TextTable comparison_table(const ReproductionTable& table) {
+  TextTable text{{{"test", "test type"},
+                  {"other", "against"},
+                  {"motion_time_s", "t (s)", format_number},
+                  {"pairs", "starts"},
+                  {"better", "better"},
+                  {"mean_percent", "info: mean", percent_digits},
+                  {"least_percent", "least", percent_digits},
+                  {"most_percent", "most", percent_digits},
+                  {"p", "p", p_digits},
+                  {"p_holm", "p (Holm)", p_digits}},
+                 {}};
+  for (const PairedComparison& row : table.comparisons) {
+    text.rows.push_back({row.test, row.other, row.motion_time_s, static_cast<double>(row.pairs),
+                         static_cast<double>(row.better), row.mean_percent, row.least_percent,
+                         row.most_percent, row.p, row.holm_p});
+  }
+  return text;
+}
+
+std::vector<std::string> hole_notes(const ReproductionTable& table) {
+  std::vector<std::string> notes;
+  const auto add = [&](const char* what, const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    if (!names.empty()) notes.push_back(what + text + '.');
+  };
+  add("Missing, since they did not run to their end: ", table.missing);
+  add("Not explored to the end, for lack of time: ", table.incomplete);
+  return notes;
+}
 
 std::string to_markdown(const ReproductionTable& table) {
-  return "# The paper's experiment, reproduced\n\n" +
-         markdown<ResultRow>(table.results, kResultColumns) + kResultNotes +
-         list_note("Missing, since they did not run to their end: ", table.missing) +
-         list_note("Not explored to the end, for lack of time: ", table.incomplete) +
-         "\n## Gain predicted and realised\n\n" +
-         markdown<PredictionRow>(table.predictions, kPredictionColumns) + kPredictionNotes;
-}
-
-std::string to_csv(const std::vector<ResultRow>& rows) {
-  return csv<ResultRow>(rows, kResultColumns);
-}
-
-std::string to_csv(const std::vector<PredictionRow>& rows) {
-  return csv<PredictionRow>(rows, kPredictionColumns);
+  std::string text =
+      "# The paper's experiment, reproduced\n\n" + to_markdown(result_table(table)) + kResultNotes;
+  for (const std::string& note : hole_notes(table)) text += '\n' + note + '\n';
+  if (!table.comparisons.empty()) {
+    text += "\n## Tests compared\n\n" + to_markdown(comparison_table(table)) + kComparisonNotes;
+  }
+  return text + "\n## Gain predicted and realised\n\n" + to_markdown(prediction_table(table)) +
+         kPredictionNotes;
 }
 
 Json to_json(const ReproductionTable& table) {
+  Json comparisons = Json::array();
+  for (const PairedComparison& row : table.comparisons) {
+    comparisons.push_back({{"test", row.test},
+                           {"other", row.other},
+                           {"motion_time_s", row.motion_time_s},
+                           {"pairs", row.pairs},
+                           {"better", row.better},
+                           {"mean_percent", row.mean_percent},
+                           {"least_percent", row.least_percent},
+                           {"most_percent", row.most_percent},
+                           {"p", row.p},
+                           {"p_holm", row.holm_p}});
+  }
   return {{"results", json<ResultRow>(table.results, kResultColumns)},
+          {"comparisons", comparisons},
           {"predictions", json<PredictionRow>(table.predictions, kPredictionColumns)},
           {"missing", table.missing},
           {"incomplete_explorations", table.incomplete}};
@@ -238,8 +271,9 @@ Json to_json(const ReproductionTable& table) {
 
 void write_tables(const ReproductionTable& table, const std::filesystem::path& folder) {
   write_file_atomically(folder / "table.md", to_markdown(table));
-  write_file_atomically(folder / "table.csv", to_csv(table.results));
-  write_file_atomically(folder / "prediction.csv", to_csv(table.predictions));
+  write_file_atomically(folder / "table.csv", to_csv(result_table(table)));
+  write_file_atomically(folder / "comparison.csv", to_csv(comparison_table(table)));
+  write_file_atomically(folder / "prediction.csv", to_csv(prediction_table(table)));
   write_file_atomically(folder / "table.json", to_text(to_json(table)));
 }
 

@@ -3,8 +3,10 @@
 #include <utility>
 #include <variant>
 
+#include "core/atomic_file.hpp"
 #include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
+#include "plot/episode_plot.hpp"
 #include "sim/simulation.hpp"
 
 namespace nbvopt {
@@ -33,7 +35,14 @@ Json answer(const SimulationUnit& unit, const EpisodeSetting& setting, const Sce
   options.episode.robot.sensor.gain = setting.gain;
   options.episode.seed = unit.seed;
   Simulation simulation(std::move(options));
-  return to_json(simulation.run(scene, read_trajectory(unit.trajectory), [](const Capture&) {}));
+  const EpisodeReport report =
+      simulation.run(scene, read_trajectory(unit.trajectory), [](const Capture&) {});
+  if (!unit.picture.empty()) {
+    write_file_atomically(unit.picture,
+                          episode_map_png({simulation.map(), simulation.options().episode.robot,
+                                           simulation.captures(), report}));
+  }
+  return to_json(report);
 }
 
 }  // namespace

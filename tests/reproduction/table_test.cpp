@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reproduction/page.hpp"
 #include "reproduction/text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -103,6 +104,8 @@ TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameT
   EXPECT_EQ(best.voxels, 2250.0);
   EXPECT_NEAR(best.voxels_percent.value(), 50.0, 1e-12);
   EXPECT_EQ(best.information, 900.0);
+  EXPECT_EQ(best.information_least, 800.0);
+  EXPECT_EQ(best.information_most, 1000.0);
   EXPECT_EQ(best.gain, 300.0);
   EXPECT_NEAR(best.gain_percent.value(), 50.0, 1e-12);
   EXPECT_EQ(best.duration_s, 100.0);
@@ -231,25 +234,86 @@ TEST_F(Reproduction, PredictionsArePooledOverStartsAndEnvironments) {
   EXPECT_TRUE(std::isnan(made.predictions[2].record.correlation())) << "of a single step";
 }
 
+TEST_F(Reproduction, TestsAreComparedOnTheStartsThatBothHave) {
+  at("cafe-1-auto-0.5").episode = episode(1, 110);
+  at("cafe-1-grid-0.5").episode = episode(1, 100);
+  at("apartment-1-auto-0.5").episode = episode(1, 90);
+  at("apartment-1-grid-0.5").episode = episode(1, 100);
+  at("apartment-2-auto-0.5").episode = episode(1, 150);
+  at("apartment-2-grid-0.5").episode = episode(1, 100);
+  at("apartment-3-auto-0.5").episode = episode(1, 150);
+  at("apartment-3-grid-1").episode = episode(1, 100);
+  const std::vector<PairedComparison> all = table().comparisons;
+  ASSERT_EQ(all.size(), 1U);
+  const PairedComparison& row = all[0];
+  EXPECT_EQ(row.test, "2D+auto");
+  EXPECT_EQ(row.other, "2D+grid");
+  EXPECT_EQ(row.motion_time_s, 0.5);
+  EXPECT_EQ(row.pairs, 3U);
+  EXPECT_EQ(row.better, 2U);
+  EXPECT_NEAR(row.mean_percent, 50.0 / 3.0, 1e-12);
+  EXPECT_NEAR(row.least_percent, -10.0, 1e-12);
+  EXPECT_NEAR(row.most_percent, 50.0, 1e-12);
+  EXPECT_NEAR(row.p, 0.75, 1e-12) << "on either side 3 of the 8 ways to sign them are as odd";
+  at("cafe-1-3d-static-0.5").episode = episode(1, 220);
+  ASSERT_EQ(table().comparisons.size(), 2U);
+  EXPECT_EQ(table().comparisons[1].other, "3D");
+  EXPECT_NEAR(table().comparisons[1].mean_percent, -50.0, 1e-12);
+  EXPECT_THAT(to_markdown(table()), HasSubstr("| 2D+auto | 2D+grid | 0.5 | 3 | 2 | 16.67% |"));
+}
+
+TEST_F(Reproduction, ThePageNeedsNoOtherFile) {
+  for (const char* name : {"cafe-1-static-0.5", "cafe-2-static-0.5", "cafe-1-auto-0.5"}) {
+    UnitResult& result = at(name);
+    result.episode = episode(1000, 500);
+    result.episode->summary.growth.add(0.0, 100);
+    result.episode->summary.growth.add(60.0, 500);
+  }
+  std::filesystem::path picture;
+  for (Unit& unit : units) {
+    std::filesystem::path& of_unit = unit.simulation.picture;
+    const bool is_first_start = unit.name.ends_with("-0.5") && unit.start == 1;
+    EXPECT_EQ(!of_unit.empty(), is_first_start) << unit.name;
+    if (!of_unit.empty()) of_unit = folder.path() / of_unit.filename();
+    if (unit.name == "cafe-1-auto-0.5") picture = of_unit;
+  }
+  std::ofstream(picture) << "foo";
+  const std::string page = to_html(table(), units, results);
+  EXPECT_THAT(page, testing::StartsWith("<!DOCTYPE html>"));
+  EXPECT_THAT(page, testing::EndsWith("</html>\n"));
+  EXPECT_THAT(page, HasSubstr("<h3>cafe</h3>"));
+  EXPECT_THAT(page, Not(HasSubstr("<h3>apartment</h3>"))) << "nothing ran there";
+  EXPECT_THAT(page, HasSubstr("Information over time: cafe, t = 0.5 s\" src=\"data:image/png;"));
+  EXPECT_THAT(page, HasSubstr("The map by 2D+auto, t = 0.5 s, start 1\" "
+                              "src=\"data:image/png;base64,Zm9v\""));
+  EXPECT_THAT(page, Not(HasSubstr("2D+grid, t = 0.5 s, start 1"))) << "it has no picture";
+  EXPECT_THAT(page, Not(HasSubstr("http"))) << "it must stand alone";
+}
+
 TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {
   at("cafe-1-static-0.5").episode = episode(12345, 1000);
   at("cafe-1-grid-0.5").episode = episode(1234567, 987.654);
   at("cafe-1-grid-0.5").episode->summary.prediction = {2, 3, 4, 5, 10, 7};
   const std::string markdown = to_markdown(table());
-  EXPECT_THAT(markdown, HasSubstr("| 2D (t=0.5) | 1 | 12,345 |  | 1,000 |  |  | 100 | 123 | 10 |"));
-  EXPECT_THAT(markdown, HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.54% | 988 | \u221212 | "
-                                  "\u22121.23% | 100 |"));
+  EXPECT_THAT(
+      markdown,
+      HasSubstr("| 2D (t=0.5) | 1 | 12,345 | - | 1,000 | 1,000 | 1,000 | - | - | 100 | 123 | "
+                "10 |"));
+  EXPECT_THAT(
+      markdown,
+      HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.54% | 988 | 988 | 988 | \u221212 | "
+                "\u22121.23% | 100 |"));
   EXPECT_THAT(markdown, HasSubstr("| 49.50% | 56.35% | 227 | 245 |\n"));
   EXPECT_THAT(markdown, HasSubstr("| all | 2D+grid (t=0.5) | 2 | 1.000 | \u221225.00% |\n"));
-  EXPECT_THAT(markdown, HasSubstr("| bookstore (15x14) | 2D | not available here |"));
-  EXPECT_THAT(markdown, HasSubstr("|  | 3D (t=0.5) | missing |"));
+  EXPECT_THAT(markdown, HasSubstr("| bookstore (15x14) | 2D: not available here |"));
+  EXPECT_THAT(markdown, HasSubstr("|  | 3D (t=0.5): missing |"));
 }
 
 TEST_F(Reproduction, CsvAndJsonHoldAllFiguresUnrounded) {
   at("cafe-1-static-0.5").episode = episode(1000, 500);
   at("cafe-1-grid-0.5").episode = episode(1003, 500.5);
   const ReproductionTable made = table();
-  const std::string csv = to_csv(made.results);
+  const std::string csv = to_csv(result_table(made));
   EXPECT_THAT(csv, testing::StartsWith("environment,test,motion_time_s,starts,voxels,"));
   EXPECT_THAT(csv, HasSubstr("\ncafe (25x10),2D+grid,0.5,1,1003,"));
   EXPECT_THAT(csv, HasSubstr(",103998,49.5,55636,20051,56.35,227,0,457,245\n"));
@@ -257,7 +321,7 @@ TEST_F(Reproduction, CsvAndJsonHoldAllFiguresUnrounded) {
   const std::string header = csv.substr(0, csv.find('\n'));
   const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
   EXPECT_EQ(columns(header), columns(last));
-  EXPECT_THAT(to_csv(made.predictions),
+  EXPECT_THAT(to_csv(prediction_table(made)),
               testing::StartsWith("environment,test,motion_time_s,steps,predicted_sum,"));
 
   const Json json = to_json(made);

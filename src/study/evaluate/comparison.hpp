@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "study/evaluate/signed_rank.hpp"
+#include "report/signed_rank.hpp"
 #include "study/results.hpp"
 
 namespace nbvopt::study {

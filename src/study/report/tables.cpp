@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/number.hpp"
@@ -21,14 +20,6 @@ double number(std::size_t value) { return static_cast<double>(value); }
 std::string two_digits(double value) { return decimal(value, 2); }
 std::string ratio_digits(double value) { return decimal(value, 4); }
 std::string difference_digits(double value) { return decimal(value, 5); }
-
-/// Two significant digits, as p values are read; less than rounding knows is not told.
-std::string p_digits(double value) {
-  if (value < 1e-15) return "< 1e-15";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g", value);
-  return text.data();
-}
 
 std::string milliseconds(double value) {
   if (value >= 1000.0) return grouped(value);

@@ -1,11 +1,11 @@
-#include "study/evaluate/signed_rank.hpp"
+#include "report/signed_rank.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
-namespace nbvopt::study {
+namespace nbvopt {
 namespace {
 
 using testing::DoubleNear;
@@ -97,4 +97,4 @@ TEST(Holm, PassesOverTestsThatWereNotMade) {
 }
 
 }  // namespace
-}  // namespace nbvopt::study
+}  // namespace nbvopt

@@ -1,10 +1,10 @@
-#include "study/evaluate/signed_rank.hpp"
+#include "report/signed_rank.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace nbvopt::study {
+namespace nbvopt {
 namespace {
 
 constexpr double kNoise = 1e-9;
@@ -103,4 +103,4 @@ std::vector<double> holm(const std::vector<double>& p) {
   return corrected;
 }
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace nbvopt::study {
+namespace nbvopt {
 
 struct SignedRankTest {
   std::size_t pairs = 0;  ///< with a difference
@@ -28,4 +28,4 @@ SignedRankTest signed_rank_test(const std::vector<double>& differences);
 /// the given. NaN is no test and stays NaN.
 std::vector<double> holm(const std::vector<double>& p);
 
-}  // namespace nbvopt::study
+}  // namespace nbvopt
