@@ -140,7 +140,8 @@ TEST_F(Reproduce, SurvivesKills) {
     done = records_so_far("killed");
   }
   ASSERT_EQ(nbvopt_run(arguments("killed")).exit_code, 0);
-  for (const char* table : {"table.md", "table.csv", "prediction.csv", "table.json"}) {
+  for (const char* table :
+       {"report.html", "table.md", "table.csv", "comparison.csv", "prediction.csv", "table.json"}) {
     EXPECT_EQ(file(std::string("killed/") + table), file(std::string("whole/") + table)) << table;
   }
 }
@@ -167,7 +168,7 @@ TEST_F(Reproduce, AFailedUnitIsToldAndLeavesAHole) {
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, AllOf(HasSubstr("nbvopt: unit apartment-1-trajectory failed: "),
                                 HasSubstr("1 of 22 units failed; the tables in ")));
-  EXPECT_THAT(result.out, HasSubstr("| 2D+auto (t=0.5) | missing |"));
+  EXPECT_THAT(result.out, HasSubstr("| 2D+auto (t=0.5): missing |"));
   EXPECT_EQ(result.out, file("out/table.md"));
   fs::remove_all(folder / "out/units/apartment-1-trajectory.csv");
   EXPECT_EQ(nbvopt_run(arguments("out")).exit_code, 0);
