@@ -23,7 +23,7 @@ std::vector<Eigen::Vector2f> hits_of(std::span<const PlaneBeam> scan) {
   std::vector<Eigen::Vector2f> hits_base_m;
   hits_base_m.reserve(scan.size());
   for (const PlaneBeam& beam : scan) {
-    if (beam.is_hit) hits_base_m.push_back(beam.end_base_m.cast<float>());
+    if (beam.is_hit) hits_base_m.emplace_back(beam.end_base_m.cast<float>());
   }
   return hits_base_m;
 }
