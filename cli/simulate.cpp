@@ -21,9 +21,11 @@ namespace {
 
 /// A world that can be cast at.
 struct ReadyWorld {
-  explicit ReadyWorld(const World& world) : bounds_m(world.bounds_m), scene(world.mesh) {}
+  explicit ReadyWorld(const World& world)
+      : bounds_m(world.bounds_m), people(world.people), scene(world.mesh) {}
 
   Eigen::AlignedBox3d bounds_m;
+  People people;
   Scene scene;
 };
 
@@ -130,9 +132,10 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
   return report;
 }
 
-void tell_episode(const SimulateOptions& options, const Scene& scene, const Drive& drive,
+void tell_episode(const SimulateOptions& options, const ReadyWorld& world, const Drive& drive,
                   Simulation& simulation) {
-  EpisodeReport report = run_and_keep(options, scene, drive.trajectory, simulation);
+  if (options.has_people) simulation.set_people(world.people);
+  EpisodeReport report = run_and_keep(options, world.scene, drive.trajectory, simulation);
   report.drive_status = drive.status;
   answer(options, to_json(report), to_text(report));
 }
@@ -143,13 +146,12 @@ void run_simulate(const SimulateOptions& options) {
   Simulation simulation = simulation_of(options);
   const ReadyWorld world(read_world(options.world));
   if (!options.trajectory_file.empty()) {
-    return tell_episode(options, world.scene, {read_trajectory(options.trajectory_file)},
-                        simulation);
+    return tell_episode(options, world, {read_trajectory(options.trajectory_file)}, simulation);
   }
   const DriveOptions asked = drive_options(options, simulation.options().episode, world);
   const Drive drive = drive_of(options, world.scene, asked);
   if (options.is_exploring_only) return tell_drive(options, drive, asked);
-  tell_episode(options, world.scene, drive, simulation);
+  tell_episode(options, world, drive, simulation);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void add_camera(CLI::App& simulate, SimulateOptions& options) {
              "standard deviation of the camera's ranges");
   add_number(simulate, "--resolution", options.simulation.resolution_m, "M", "of the map's voxels");
   add_whole_number(simulate, "--seed", options.seed, 0, std::numeric_limits<std::int64_t>::max(),
-                   "of exploration, noise, and modes that draw random numbers");
+                   "of exploration, noise, people, and modes that draw random numbers");
   options.robot.default_gain = GainKind::expected;
   add_robot_arguments(simulate, options.robot);
 }
@@ -138,6 +138,7 @@ void add_outputs(CLI::App& simulate, SimulateOptions& options) {
 void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
   simulate.option_defaults()->group("Which world");
   add_world_arguments(simulate, options.world);
+  simulate.add_flag("!--without-people", options.has_people, "leave out the world's actors");
   add_drive(simulate, options);
   add_camera(simulate, options);
   add_localisation(simulate, options);

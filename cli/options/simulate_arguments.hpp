@@ -17,6 +17,7 @@ struct SimulateOptions {
   DriveOptions drive;    ///< without a start: the world's first free place
   std::string explorer;  ///< of ExplorerKind's names; empty: as the drive has it
   bool explores_open_ground = false;
+  bool has_people = true;  ///< those of the world
   std::string trajectory_file;  ///< empty: the robot drives by itself
   bool is_exploring_only = false;
   SimulationOptions simulation;

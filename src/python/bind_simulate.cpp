@@ -85,7 +85,7 @@ std::unique_ptr<Episode> simulate(
     const std::string& mode, double motion_time_s, const py::object& joints, const Robot& robot,
     const std::optional<double>& capture_hz, bool charge_computing, double range_noise_m,
     double resolution_m, std::int64_t seed, const Region& region, const std::string& pose_source,
-    double odometry_noise, bool score_map) {
+    double odometry_noise, bool score_map, bool has_people) {
   if (!start && !replayed) {
     throw InputError("give a start to explore from, or a trajectory to replay");
   }
@@ -111,6 +111,7 @@ std::unique_ptr<Episode> simulate(
   options.world = name_of(world_argument);
   Simulation simulation(options);
   const SharedWorld world = world_from(world_argument);
+  if (has_people) simulation.set_people(world->people);
   const Drive drive = replayed ? drive_from(*replayed)
                                : drive_through(*world, *start, goals, region, lidar_range_m,
                                                duration_max_s, options.episode.seed);
@@ -147,10 +148,11 @@ constexpr const char* kSimulateText =
     "charge_computing: let the base drive on while the computer maps and plans.\n"
     "range_noise_m: standard deviation of the camera's ranges.\n"
     "resolution_m: of the map's voxels.\n"
-    "seed: of exploration, noise, and modes that draw random numbers.\n"
+    "seed: of exploration, noise, people, and modes that draw random numbers.\n"
     "pose_source: how the base knows where it is: \"truth\", \"odom\" (wheels that err, times "
     "odometry_noise) or \"slam\" (wheels and lidar). score_map: judge the map by the world, which "
-    "is always done where poses err.\n\n"
+    "is always done where poses err.\n"
+    "people: whether the world's actors walk.\n\n"
     "ValueError: a mode that is not known, joints beyond their limits, a number out of range, and "
     "as explore(). What ends the episode before the drive does, Ctrl-C too, has the Map so far as "
     "its attribute `map`.";
@@ -178,7 +180,7 @@ void bind_simulate(py::module_& module) {
              py::arg("resolution_m") = defaults.resolution_m, py::arg("seed") = 1,
              py::arg("region") = py::none(), py::arg("pose_source") = "truth",
              py::arg("odometry_noise") = defaults.episode.localisation.odometry_noise,
-             py::arg("score_map") = false, kSimulateText);
+             py::arg("score_map") = false, py::arg("people") = true, kSimulateText);
 }
 
 }  // namespace nbvopt::python

@@ -32,7 +32,7 @@ SharedWorld read(const std::filesystem::path& path, WorldOptions options) {
     const py::gil_scoped_release release;
     const World world = read_world(path, options);
     warnings = world.warnings;
-    ready.reset(new ReadyWorld{path.string(), world.bounds_m, Scene(world.mesh)});
+    ready.reset(new ReadyWorld{path.string(), world.bounds_m, world.people, Scene(world.mesh)});
   }
   for (const std::string& warning : warnings) {
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();

@@ -20,6 +20,7 @@ namespace nbvopt::python {
 struct ReadyWorld {
   std::string name;
   Eigen::AlignedBox3d bounds_m;
+  People people;
   Scene scene;
 };
 

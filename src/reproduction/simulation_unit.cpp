@@ -11,6 +11,7 @@
 #include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sensor/sensor_names.hpp"
+#include "sim/people/people_json.hpp"
 
 namespace nbvopt {
 namespace {
@@ -161,8 +162,9 @@ std::string command_line(const SimulationUnit& simulation, const std::filesystem
 World read_world(const WorldSource& source) { return read_world(source.file, source.options); }
 
 std::string world_digest(const World& world) {
+  const std::string people = world.people.persons.empty() ? "" : to_text(to_json(world.people));
   return experiment::digest(experiment::digest(bytes_of(world.mesh.vertices_m)) +
-                            experiment::digest(bytes_of(world.mesh.triangles)));
+                            experiment::digest(bytes_of(world.mesh.triangles)) + people);
 }
 
 }  // namespace nbvopt

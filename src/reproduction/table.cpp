@@ -29,6 +29,10 @@ double information_as_paper_counts(const EpisodeReport& episode) {
   return episode.paper_counts.information;
 }
 
+double ghosts(const EpisodeReport& episode) {
+  return static_cast<double>(episode.summary.ghosts.value_or(0));
+}
+
 /// Every result where it belongs.
 class ResultIndex {
  public:
@@ -95,6 +99,7 @@ void set_figures(ResultRow& row, const Episodes& episodes) {
   const auto [least, most] = std::ranges::minmax_element(episodes, by_information);
   row.information_least = information(least->second);
   row.information_most = information(most->second);
+  if (episodes.begin()->second.summary.ghosts) row.ghosts = mean(episodes, ghosts);
   row.mean_information = mean(episodes, mean_information);
   row.duration_s = mean(episodes, duration_s);
   row.voxels_per_s = *row.voxels / *row.duration_s;

@@ -30,6 +30,7 @@ struct ResultRow : RowLabel {
   std::optional<double> information;
   std::optional<double> information_least;  ///< of the starts
   std::optional<double> information_most;
+  std::optional<double> ghosts;  ///< where people walk
   std::optional<double> gain;
   std::optional<double> gain_percent;
   std::optional<double> mean_information;  ///< over the drive

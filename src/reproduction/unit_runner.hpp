@@ -1,16 +1,14 @@
 // Answers units of work: what a worker of the reproduction does between two lines.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "reproduction/simulation_unit.hpp"
 
 namespace nbvopt {
 
-class Scene;
+struct KeptWorld;
 
 /// Keeps the world of the last unit: units that follow one another share it.
 class UnitRunner {
@@ -26,13 +24,11 @@ class UnitRunner {
   Json run(const SimulationUnit& unit);
 
  private:
-  const Scene& scene(const WorldSource& world);
+  const KeptWorld& world(const WorldSource& source);
 
   std::filesystem::path world_file_;
   std::string world_digest_;
-  std::unique_ptr<Scene> scene_;
-  Eigen::AlignedBox2d world_map_m_;    ///< of the world, as explorations take it
-  std::vector<std::string> warnings_;  ///< of the world
+  std::unique_ptr<const KeptWorld> world_;
 };
 
 }  // namespace nbvopt

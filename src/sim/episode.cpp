@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/number.hpp"
@@ -14,6 +15,8 @@
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
 #include "sim/localisation/localiser.hpp"
+#include "sim/people/bystanders.hpp"
+#include "sim/people/ghosts.hpp"
 #include "sim/realised_gain.hpp"
 
 namespace nbvopt {
@@ -49,6 +52,11 @@ struct JointMove {
   double departure_s = 0.0;
 };
 
+std::optional<Bystanders> bystanders_of(const Scene& scene, const EpisodeOptions& options) {
+  if (options.people.persons.empty()) return std::nullopt;
+  return std::optional<Bystanders>(std::in_place, scene, options.people, options.seed);
+}
+
 /// The state of an episode between captures.
 class EpisodeRun {
  public:
@@ -63,7 +71,9 @@ class EpisodeRun {
         mast_(options.robot.mast),
         planning_camera_(options.robot.sensor),
         scene_(scene),
-        camera_(scene, options.robot.sensor, options.range_noise_m, options.seed),
+        bystanders_(bystanders_of(scene, options)),
+        camera_(scene, options.robot.sensor, options.range_noise_m, options.seed,
+                bystanders_ ? &bystanders_->bodies() : nullptr),
         localiser_(scene, trajectory, options.localisation, options.seed) {
     std::vector<std::string> warnings;
     move_.from = move_.to = mast_.clamped(options.start_joints, warnings);
@@ -71,6 +81,7 @@ class EpisodeRun {
     summary_.duration_s = trajectory.duration_s();
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
+    if (bystanders_) ghosts_.emplace(scene, map);
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
     if (options.scores_map && errs()) map_of_true_poses_.emplace(map.resolution_m());
     summary_.hazards =
@@ -142,6 +153,7 @@ class EpisodeRun {
                                                       std::max(0.0, time_s - move_.departure_s))
                                    : move_.to;
     capture.is_on_the_way = is_on_the_way;
+    if (bystanders_) bystanders_->move_to(time_s, robot_map_m_);
     return capture;
   }
 
@@ -185,6 +197,10 @@ class EpisodeRun {
     capture.voxels = summary_.voxels;
     capture.information = summary_.information;
     capture.information_gain = inserted.information_gained;
+    if (ghosts_) {
+      ghosts_->update(inserted.changes);
+      summary_.ghosts = capture.ghosts = ghosts_->ghosts();
+    }
     summary_.growth.add(capture.time_s, capture.information);
   }
 
@@ -223,7 +239,12 @@ class EpisodeRun {
   Mast mast_;
   DepthCamera planning_camera_;
   const Scene& scene_;
+  std::optional<Bystanders> bystanders_;
+  RobotPosition robot_map_m_ = [this](double time_s) {
+    return Eigen::Vector3d(trajectory_.T_map_base(time_s).translation());
+  };
   SimulatedCamera camera_;
+  std::optional<GhostCounter> ghosts_;
   Localiser localiser_;
   std::optional<UncertaintyMap> map_of_true_poses_;  ///< of the same views, to score the map by
   std::shared_ptr<const VoxelGrid> grid_;  ///< of the map; null where the mode does not plan

@@ -27,6 +27,17 @@ std::optional<ExplorationStatus> drive_status_of(const Json& json) {
   return status_of(status->get<std::string>());
 }
 
+Json count_or_null(const std::optional<std::uint64_t>& count) {
+  return count ? Json(*count) : Json(nullptr);
+}
+
+/// None where it was not counted.
+std::optional<std::uint64_t> ghosts_of(const Json& json) {
+  const auto ghosts = json.find("ghosts");
+  if (ghosts == json.end() || ghosts->is_null()) return std::nullopt;
+  return ghosts->get<std::uint64_t>();
+}
+
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
 
 constexpr std::size_t kGrowthPoints = 200;  ///< of a report: steps of half a percent
@@ -115,6 +126,7 @@ Json to_json(const Capture& capture) {
           {"voxels", capture.voxels},
           {"information", capture.information},
           {"information_gain", capture.information_gain},
+          {"ghosts", count_or_null(capture.ghosts)},
           {"predicted_gain", number_or_null(capture.predicted_gain)},
           {"realised_gain", number_or_null(capture.realised_gain)},
           {"motion_time_s", capture.motion_time_s},
@@ -160,6 +172,7 @@ Json to_json(const EpisodeReport& report) {
       {"captures", summary.captures},
       {"voxels", summary.voxels},
       {"information", summary.information},
+      {"ghosts", count_or_null(summary.ghosts)},
       {"mean_information", summary.growth.mean_until(summary.duration_s)},
       {"growth", to_json(summary.growth)},
       {"voxels_as_paper_counts", report.paper_counts.voxels},
@@ -209,6 +222,7 @@ EpisodeReport episode_report_of(const Json& json) {
                       .captures = count(json, "captures"),
                       .voxels = count(json, "voxels"),
                       .information = number(json, "information"),
+                      .ghosts = ghosts_of(json),
                       .growth = growth_of(json.at("growth")),
                       .prediction = {.steps = count(prediction, "steps"),
                                      .sum_x = number(pooled, "sum_x"),
@@ -240,6 +254,10 @@ std::string to_text(const EpisodeReport& report) {
       growth_text(summary) +
       (summary.localisation ? to_text(*summary.localisation, report.pose_source) : "") +
       (summary.map_score ? to_text(*summary.map_score) : "");
+  if (summary.ghosts) {
+    text += "ghosts: " + std::to_string(*summary.ghosts) +
+            " occupied voxels where the static world has nothing\n";
+  }
   if (std::isfinite(prediction.correlation())) {
     text += "gain: predicted " + decimal(prediction.sum_x, 0) + ", realised " +
             decimal(prediction.sum_y, 0) + " (bias " + percent(prediction.bias()) +

@@ -1,23 +1,16 @@
 #include "nbvopt/sim/scene.hpp"
 
-#include <embree3/rtcore.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <string>
 #include <tuple>
 
 #include "nbvopt/core/error.hpp"
+#include "sim/ray_packets.hpp"
 #include "sim/triangle_distance.hpp"
 
 namespace nbvopt {
 namespace {
-
-constexpr std::size_t kPacket = 16;
-constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
 void check(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw InputError("the scene holds no triangle: there is no geometry");
@@ -28,44 +21,6 @@ void check(const TriangleMesh& mesh) {
   }
   for (const Eigen::Vector3f& vertex : mesh.vertices_m) {
     if (!vertex.allFinite()) throw UsageError("a vertex of the scene is not finite");
-  }
-}
-
-/// Embree reports what goes wrong through a callback only.
-void keep_first_error(void* message, RTCError /*code*/, const char* text) {
-  auto& first = *static_cast<std::string*>(message);
-  if (first.empty()) first = text;
-}
-
-/// Casts up to kPacket rays at once.
-void cast_packet(RTCScene scene, const Eigen::Vector3f& origin, const Eigen::Vector3f* directions,
-                 std::size_t count, float range_max_m, float* distances_m) {
-  alignas(64) std::array<int, kPacket> valid{};
-  alignas(64) RTCRayHit16 packet;
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    const Eigen::Vector3f& direction = directions[std::min(i, count - 1)];
-    valid[i] = i < count ? -1 : 0;
-    packet.ray.org_x[i] = origin.x();
-    packet.ray.org_y[i] = origin.y();
-    packet.ray.org_z[i] = origin.z();
-    packet.ray.tnear[i] = 0.0F;
-    packet.ray.dir_x[i] = direction.x();
-    packet.ray.dir_y[i] = direction.y();
-    packet.ray.dir_z[i] = direction.z();
-    packet.ray.time[i] = 0.0F;
-    packet.ray.tfar[i] = range_max_m;
-    packet.ray.mask[i] = ~0U;
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid.data(), scene, &context, &packet);
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool is_hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    distances_m[i] = is_hit ? packet.ray.tfar[i] : kNoHit;
   }
 }
 
@@ -97,9 +52,7 @@ bool look_at_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 /// Owns Embree's handles.
 struct Scene::Embree {
-  explicit Embree(const TriangleMesh& mesh) : device(rtcNewDevice(nullptr)) {
-    if (device == nullptr) throw Error("Embree cannot start: it supports x86-64 processors");
-    rtcSetDeviceErrorFunction(device, keep_first_error, &error);
+  explicit Embree(const TriangleMesh& mesh) : device(new_embree_device(error)) {
     scene = rtcNewScene(device);
     // Without it a ray through a shared edge may slip between two triangles.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -115,9 +68,9 @@ struct Scene::Embree {
   Embree& operator=(const Embree&) = delete;
   ~Embree() { release(); }
 
+  std::string error;  ///< of the device, which needs it from the start
   RTCDevice device;
   RTCScene scene = nullptr;
-  std::string error;
 
  private:
   void attach(const TriangleMesh& mesh) {
@@ -157,22 +110,8 @@ Scene::~Scene() = default;
 void Scene::first_hits(const Eigen::Vector3d& origin_map_m,
                        std::span<const Eigen::Vector3f> directions_map, float range_max_m,
                        std::span<float> distances_m) const {
-  if (directions_map.size() != distances_m.size()) {
-    throw UsageError("directions and distances differ in number");
-  }
-  // A task should be worth its start: some tens of microseconds.
-  constexpr std::size_t kPacketsATask = 64;
-  const Eigen::Vector3f origin = origin_map_m.cast<float>();
-  const std::size_t packets = (directions_map.size() + kPacket - 1) / kPacket;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets, kPacketsATask),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t packet = range.begin(); packet != range.end(); ++packet) {
-                        const std::size_t first = packet * kPacket;
-                        cast_packet(embree_->scene, origin, &directions_map[first],
-                                    std::min(kPacket, directions_map.size() - first), range_max_m,
-                                    &distances_m[first]);
-                      }
-                    });
+  std::ranges::fill(distances_m, std::numeric_limits<float>::infinity());
+  shorten_to_hits(embree_->scene, origin_map_m, directions_map, range_max_m, distances_m);
 }
 
 std::optional<SurfaceHit> Scene::first_surface(const Eigen::Vector3d& origin_map_m,

@@ -5,24 +5,9 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/people/people_scene.hpp"
 
 namespace nbvopt {
-namespace {
-
-std::vector<float> cast(const Scene& scene, const CameraRays& rays, const SensorOptions& sensor,
-                        const Transform& T_map_sensor) {
-  std::vector<Eigen::Vector3f> directions_map(rays.size());
-  const Eigen::Matrix3d& R_map_sensor = T_map_sensor.linear();
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    directions_map[i] = (R_map_sensor * rays.direction(i)).cast<float>();
-  }
-  std::vector<float> distances_m(rays.size());
-  scene.first_hits(T_map_sensor.translation(), directions_map,
-                   static_cast<float>(sensor.longest_range_m()), distances_m);
-  return distances_m;
-}
-
-}  // namespace
 
 void check_range_noise(double range_noise_m) {
   if (range_noise_m >= 0.0 && std::isfinite(range_noise_m)) return;
@@ -31,8 +16,10 @@ void check_range_noise(double range_noise_m) {
 }
 
 SimulatedCamera::SimulatedCamera(const Scene& scene, const SensorOptions& sensor,
-                                 double range_noise_m, std::uint64_t seed)
+                                 double range_noise_m, std::uint64_t seed,
+                                 const PeopleScene* people)
     : scene_(scene),
+      people_(people),
       camera_(sensor),
       pixels_(make_rays(sensor, sensor.horizontal_pixels, sensor.vertical_pixels)),
       range_noise_m_(range_noise_m),
@@ -41,7 +28,7 @@ SimulatedCamera::SimulatedCamera(const Scene& scene, const SensorOptions& sensor
 }
 
 Scan SimulatedCamera::capture(const Transform& T_map_sensor, std::uint64_t frame) const {
-  const std::vector<float> distances_m = cast(scene_, pixels_, camera_.options(), T_map_sensor);
+  const std::vector<float> distances_m = cast(pixels_, T_map_sensor);
   std::seed_seq seeds{seed_, seed_ >> 32, frame, frame >> 32};
   std::mt19937_64 random(seeds);
   std::normal_distribution<double> noise_m(0.0, range_noise_m_ > 0.0 ? range_noise_m_ : 1.0);
@@ -63,7 +50,24 @@ Scan SimulatedCamera::capture(const Transform& T_map_sensor, std::uint64_t frame
 }
 
 std::vector<float> SimulatedCamera::planning_distances_m(const Transform& T_map_sensor) const {
-  return cast(scene_, camera_.rays(), camera_.options(), T_map_sensor);
+  return cast(camera_.rays(), T_map_sensor);
+}
+
+std::vector<float> SimulatedCamera::cast(const CameraRays& rays,
+                                         const Transform& T_map_sensor) const {
+  std::vector<Eigen::Vector3f> directions_map(rays.size());
+  const Eigen::Matrix3d& R_map_sensor = T_map_sensor.linear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    directions_map[i] = (R_map_sensor * rays.direction(i)).cast<float>();
+  }
+  std::vector<float> distances_m(rays.size());
+  const auto range_max_m = static_cast<float>(camera_.options().longest_range_m());
+  const Eigen::Vector3d origin_map_m = T_map_sensor.translation();
+  scene_.first_hits(origin_map_m, directions_map, range_max_m, distances_m);
+  if (people_ != nullptr) {
+    people_->shorten(origin_map_m, directions_map, range_max_m, distances_m);
+  }
+  return distances_m;
 }
 
 }  // namespace nbvopt

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
@@ -61,6 +62,9 @@ class Simulation {
   /// Throws InputError for what run_episode() would refuse, and UsageError for an unknown mode:
   /// before a world is read or a drive made.
   explicit Simulation(SimulationOptions options);
+
+  /// Lets people walk through the world, who are known once it is read.
+  void set_people(People people) { options_.episode.people = std::move(people); }
 
   /// Runs the episode as run_episode() does; to be called once.
   EpisodeReport run(const Scene& scene, const Trajectory& trajectory,

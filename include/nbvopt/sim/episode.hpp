@@ -14,6 +14,7 @@
 #include "nbvopt/sim/information_growth.hpp"
 #include "nbvopt/sim/localisation.hpp"
 #include "nbvopt/sim/map_score.hpp"
+#include "nbvopt/sim/people.hpp"
 #include "nbvopt/sim/prediction_record.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/trajectory.hpp"
@@ -35,7 +36,8 @@ struct EpisodeOptions {
   bool scores_map = false;
   /// What an expected gain begins with; none: nothing is learnt, the floor is that of the start.
   std::optional<HazardTable> hazards;
-  std::uint64_t seed = 1;  ///< of noise, and with the capture's number of what modes draw
+  std::uint64_t seed = 1;  ///< of noise, of people, and with the capture's number of modes' draws
+  People people = {};      ///< who walk meanwhile, round the robot; the camera sees them
 
   /// Throws InputError that names the first bad value: a motion time or rate that is not positive,
   /// joints beyond their limits, a bad robot, noise or localisation.
@@ -56,7 +58,9 @@ struct Capture {
   std::uint64_t voxels = 0;       ///< of the map: occupied with u < 1, this capture included
   double information = 0.0;       ///< of the map, Eq. 11, this capture included
   double information_gain = 0.0;  ///< what this capture added
-  double predicted_gain = kNaN;   ///< of this view when it was planned; NaN: it was not
+  /// Occupied voxels of the map where the static world has nothing; not counted without people.
+  std::optional<std::uint64_t> ghosts = {};
+  double predicted_gain = kNaN;  ///< of this view when it was planned; NaN: it was not
   /// Of this view in the same unit, on the map as it was just before; NaN where it was not planned.
   double realised_gain = kNaN;
   double motion_time_s = 0.0;  ///< that the joints need to the view planned next
@@ -72,6 +76,7 @@ struct EpisodeSummary {
   std::uint64_t captures = 0;
   std::uint64_t voxels = 0;
   double information = 0.0;
+  std::optional<std::uint64_t> ghosts = {};  ///< as of the last capture
   InformationGrowth growth = {};
   PredictionRecord prediction;
   HazardTable hazards = HazardTable();                  ///< learnt, where the gain is expected
@@ -81,9 +86,11 @@ struct EpisodeSummary {
 
 /// Runs an episode and grows the map, which the caller keeps whatever happens. Calls `observe`
 /// after each capture; what it throws ends the episode. Without computing time charged, the same
-/// arguments give the same map and captures, times in ms aside, for any number of threads. Throws
-/// InputError as EpisodeOptions::validate() does, and when slam has nothing to go by where the
-/// drive starts; the map is then untouched.
+/// arguments give the same map and captures, times in ms aside, for any number of threads; where
+/// people are when depends on trajectory and seed alone, so that all modes meet the same. Throws
+/// InputError as EpisodeOptions::validate() does, when slam has nothing to go by where the drive
+/// starts, and when somebody has no floor below or stands in a wall at first; the map is then
+/// untouched.
 EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
                            const EpisodeOptions& options, UncertaintyMap& map,
                            const std::function<void(const Capture&)>& observe);

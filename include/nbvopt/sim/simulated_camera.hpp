@@ -13,6 +13,8 @@
 
 namespace nbvopt {
 
+class PeopleScene;  // src/sim/people/people_scene.hpp
+
 /// Throws InputError when a standard deviation of ranges is negative or not finite.
 void check_range_noise(double range_noise_m);
 
@@ -21,9 +23,9 @@ class SimulatedCamera {
  public:
   /// Ranges get Gaussian noise of this standard deviation; 0: none. Throws InputError as
   /// check_range_noise() and SensorOptions::validate() do. The scene must outlive the
-  /// camera.
+  /// camera, and so must the people whom it sees as they stand; null: there is nobody.
   SimulatedCamera(const Scene& scene, const SensorOptions& sensor, double range_noise_m,
-                  std::uint64_t seed);
+                  std::uint64_t seed, const PeopleScene* people = nullptr);
 
   /// The frame as a driver gives it: a return a pixel that meets a surface in range, a no-return a
   /// pixel that meets none. What stands nearer than range_min_m gives neither. Frames of the same
@@ -35,7 +37,10 @@ class SimulatedCamera {
   std::vector<float> planning_distances_m(const Transform& T_map_sensor) const;
 
  private:
+  std::vector<float> cast(const CameraRays& rays, const Transform& T_map_sensor) const;
+
   const Scene& scene_;
+  const PeopleScene* people_;
   DepthCamera camera_;
   CameraRays pixels_;  ///< of the depth image
   double range_noise_m_;

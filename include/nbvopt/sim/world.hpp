@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nbvopt/sim/people.hpp"
 #include "nbvopt/sim/triangle_mesh.hpp"
 
 namespace nbvopt {
@@ -33,6 +34,7 @@ struct World {
   Eigen::AlignedBox3d bounds_m;  ///< of everything but planes
   std::uint64_t models = 0;      ///< top-level ones; 0 for a single mesh
   std::uint64_t nested_models = 0;
+  People people;                      ///< who are not in the mesh
   std::vector<std::string> warnings;  ///< one line each: what is missing, faulty or left out
   std::vector<std::string> missing;   ///< those of them that keep a part out of the world
 };

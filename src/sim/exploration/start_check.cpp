@@ -9,38 +9,9 @@
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/air.hpp"
 
 namespace nbvopt {
-namespace {
-
-/// A mesh does not say what is solid. But a wardrobe, a crate or a bed holds less air than this,
-/// and a room that is worth exploring more.
-constexpr double kLeastAir_cubic_m = 4.0;
-constexpr int kAirRays = 512;
-
-/// The air that is seen from the lidar in the upper half space; +inf under the open sky.
-double air_above_m3(const Scene& scene, const Transform& T_map_base, const LidarOptions& lidar) {
-  std::vector<Eigen::Vector3f> directions;
-  for (int i = 0; i < kAirRays; ++i) {  // a spiral of equal areas on the half sphere
-    const double z = (i + 0.5) / kAirRays;
-    const double angle_rad = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double radius = std::sqrt(1.0 - z * z);
-    directions.emplace_back(static_cast<float>(radius * std::cos(angle_rad)),
-                            static_cast<float>(radius * std::sin(angle_rad)),
-                            static_cast<float>(z));
-  }
-  std::vector<float> distances_m(directions.size());
-  scene.first_hits(T_map_base * Eigen::Vector3d(0.0, 0.0, lidar.height_m), directions,
-                   static_cast<float>(lidar.range_max_m), distances_m);
-  double air_m3 = 0.0;
-  for (const double distance_m : distances_m) {
-    air_m3 += 2.0 * std::numbers::pi / kAirRays * distance_m * distance_m * distance_m / 3.0;
-  }
-  return air_m3;
-}
-
-}  // namespace
-
 void require_free_start(const Scene& scene, const Transform& T_map_base,
                         const ExplorationOptions& options) {
   const Eigen::Vector3d position_map_m = T_map_base.translation();
@@ -62,7 +33,9 @@ void require_free_start(const Scene& scene, const Transform& T_map_base,
     refuse("is nearer to a surface than the base's radius of " +
            format_number(options.base.radius_m) + " m, start where there is room");
   }
-  if (air_above_m3(scene, T_map_base, options.lidar) < kLeastAir_cubic_m) {
+  const Eigen::Vector3d lidar_map_m =
+      T_map_base * Eigen::Vector3d(0.0, 0.0, options.lidar.height_m);
+  if (air_above_m3(scene, lidar_map_m, options.lidar.range_max_m) < kLeastAir_m3) {
     refuse("is inside a wall or a piece of furniture, start where there is room");
   }
 }

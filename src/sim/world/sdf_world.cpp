@@ -10,6 +10,7 @@
 #include "nbvopt/core/error.hpp"
 #include "sim/world/append_mesh.hpp"
 #include "sim/world/model_paths.hpp"
+#include "sim/world/sdf_actor.hpp"
 #include "sim/world/sdf_documents.hpp"
 #include "sim/world/sdf_frames.hpp"
 #include "sim/world/sdf_geometry.hpp"
@@ -55,7 +56,8 @@ class PartCollector {
     if (const SdfElement* insertions = state.insertions()) {
       add_models(documents_.models_in(*insertions, file), frames, state);
     }
-    for_each(world, "actor", [&](const SdfElement& actor) { leave_out_actor(actor, file); });
+    for_each(world, "actor", [&](const SdfElement& actor) { add_actor(actor, frames, file); });
+    if (world_.people.persons.empty()) world_.people.models.clear();
     for_each(world, "road", [&](const SdfElement& road) {
       log_.left_out("road '" + attribute_of(road, "name") +
                     "' is left out: it is flat and lies on the ground");
@@ -155,6 +157,9 @@ class PartCollector {
       if (place.state != nullptr && place.state->T_map_model) {
         T_map_model = saved_unless_same(*place.state->T_map_model, T_map_model);
       }
+      if (place.depth == 0) {
+        world_.people.models.push_back({model.name, T_map_model.translation()});
+      }
       add_inside(model, name, T_map_model, place);
     });
   }
@@ -234,12 +239,10 @@ class PartCollector {
     return true;
   }
 
-  void leave_out_actor(const SdfElement& actor, const fs::path& file) {
-    const SdfElement* skin = actor.FirstChildElement("skin");
-    const std::string uri = skin == nullptr ? std::string() : text_of(*skin, "filename");
-    const bool is_found = documents_.model_paths().find(uri, file.parent_path()).has_value();
-    log_.left_out("actor '" + attribute_of(actor, "name") + "' is left out, " +
-                  (is_found ? "since it moves" : "its mesh '" + uri + "' is not found either"));
+  void add_actor(const SdfElement& actor, SdfFrames& frames, const fs::path& file) {
+    const std::string what = "actor '" + attribute_of(actor, "name") + "'";
+    if (!is_new(names_, attribute_of(actor, "name"), what)) return;
+    try_to_add(what, file, [&] { world_.people.persons.push_back(actor_of(actor, frames)); });
   }
 
   const char* shape_kind_;

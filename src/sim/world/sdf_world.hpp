@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nbvopt/sim/people.hpp"
 #include "nbvopt/sim/world.hpp"
 #include "sim/world/world_log.hpp"
 #include "sim/world/world_part.hpp"
@@ -14,6 +15,7 @@ namespace nbvopt {
 
 struct SdfWorld {
   std::vector<WorldPart> parts;
+  People people;
   std::uint64_t models = 0;         ///< direct children of the world, includes among them
   std::uint64_t nested_models = 0;  ///< models within models, at any depth
 };

@@ -37,15 +37,6 @@ std::string with_declaration_first(std::string xml) {
   return xml;
 }
 
-[[noreturn]] void refuse(const SdfElement& element, const std::string& demand) {
-  constexpr std::size_t kShown = 60;
-  std::string text = text_of(&element).substr(0, kShown);
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < ' '; }, ' ');
-  throw InputError("line " + std::to_string(element.GetLineNum()) + ": <" + element.Name() +
-                   "> is '" + text + "', it must be " + demand);
-}
-
 /// Whether a text holds so many finite numbers and nothing else.
 template <std::size_t N>
 bool read_numbers(std::string_view text, std::array<double, N>& numbers) {
@@ -64,7 +55,7 @@ template <std::size_t N>
 std::array<double, N> numbers_of(const SdfElement& element, const char* demand) {
   std::array<double, N> numbers{};
   const char* text = element.GetText();
-  if (text == nullptr || !read_numbers(text, numbers)) refuse(element, demand);
+  if (text == nullptr || !read_numbers(text, numbers)) refuse_value(element, demand);
   return numbers;
 }
 
@@ -112,6 +103,15 @@ std::string text_of(const SdfElement& parent, const char* child) {
   return text_of(parent.FirstChildElement(child));
 }
 
+void refuse_value(const SdfElement& element, const std::string& demand) {
+  constexpr std::size_t kShown = 60;
+  std::string text = text_of(&element).substr(0, kShown);
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
+  throw InputError("line " + std::to_string(element.GetLineNum()) + ": <" + element.Name() +
+                   "> is '" + text + "', it must be " + demand);
+}
+
 double number_of(const SdfElement& parent, const char* child, double otherwise) {
   const SdfElement* element = parent.FirstChildElement(child);
   return element == nullptr ? otherwise : numbers_of<1>(*element, "a number")[0];
@@ -142,7 +142,7 @@ Eigen::Affine3d pose_of(const SdfElement& pose) {
     const auto numbers = numbers_of<7>(pose, "7 numbers: x y z and a quaternion x y z w");
     const auto [x, y, z, qx, qy, qz, qw] = numbers;
     const Eigen::Quaterniond turn(qw, qx, qy, qz);
-    if (!(turn.norm() > 0.0)) refuse(pose, "a turn: its quaternion is zero");
+    if (!(turn.norm() > 0.0)) refuse_value(pose, "a turn: its quaternion is zero");
     return Eigen::Translation3d(x, y, z) * turn.normalized();
   }
   const auto [x, y, z, roll, pitch, yaw] = numbers_of<6>(pose, "6 numbers: x y z roll pitch yaw");

@@ -43,6 +43,9 @@ std::string text_of(const SdfElement* element);
 /// The text of a child; empty when there is none.
 std::string text_of(const SdfElement& parent, const char* child);
 
+/// Throws InputError with line, element and text, which must be what is demanded.
+[[noreturn]] void refuse_value(const SdfElement& element, const std::string& demand);
+
 /// The numbers of a child, `otherwise` when there is no such child. All of these throw InputError
 /// with line, element and text when it does not hold exactly that many finite numbers.
 double number_of(const SdfElement& parent, const char* child, double otherwise);

@@ -91,6 +91,7 @@ World assemble(const SdfWorld& from) {
   World world;
   world.models = from.models;
   world.nested_models = from.nested_models;
+  world.people = from.people;
   for (const WorldPart& part : from.parts) {
     append_mesh(part.mesh, Eigen::Affine3d::Identity(), world.mesh);
     if (part.is_plane) continue;

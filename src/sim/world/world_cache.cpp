@@ -13,6 +13,7 @@
 #include "core/number.hpp"
 #include "core/text_file.hpp"
 #include "nbvopt/core/error.hpp"
+#include "sim/people/people_json.hpp"
 #include "sim/world/byte_archive.hpp"
 #include "sim/world/world_names.hpp"
 
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic{'n', 'b', 'v', 'w', 'o', 'r', 'l', 'd'};
 /// To be raised when the format changes, or worlds are built differently from the same files.
-constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint32_t kFormatVersion = 3;
 
 /// FNV-1a, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
@@ -89,6 +90,9 @@ std::optional<World> unpack(std::string_view bytes, const std::string& expected_
   if (key != expected_key || !are_unchanged(files, stamps)) return std::nullopt;
   World world;
   archive_world(content, world);
+  std::string people;
+  content(people);
+  if (!people.empty()) world.people = people_of(parse_json(people, "the world's people"));
   return world;
 }
 
@@ -133,6 +137,7 @@ void WorldCache::store(const World& world, const std::set<fs::path>& files) cons
   content(names);
   content(stamps);
   archive_world(content, world);
+  content(world.people.persons.empty() ? std::string() : to_text(to_json(world.people)));
   ArchiveWriter header;
   header(kMagic);
   header(kFormatVersion);

@@ -217,10 +217,8 @@ TEST(World, LoadsWithoutWhatIsMissingAndRefusesWhenStrict) {
        "frame 'x' is not known"},
       {"<road name='r'><width>1</width><point>0 0 0</point><point>1 0 0</point></road>", "road 'r'",
        "it is flat"},
-      {"<actor name='walker'><skin><filename>walk.dae</filename></skin><script><trajectory id='0' "
-       "type='walk'><waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint></trajectory>"
-       "</script></actor>",
-       "actor 'walker' is left out", "'walk.dae' is not found"},
+      {"<actor name='walker'><script><trajectory id='0' type='walk'/></script></actor>",
+       "actor 'walker' is left out", "<trajectory> has no <waypoint>"},
       {include("model://there"), "there", "already exists"},
       {"<model name='far'><pose>300000 0 0 0 0 0</pose>" + link_with(box("1 1 1")) + "</model>",
        "model 'far' is left out", "300 km"}};
