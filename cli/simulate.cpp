@@ -40,6 +40,7 @@ DriveOptions drive_options(const SimulateOptions& options, const EpisodeOptions&
   if (!options.explores_open_ground) {
     drive.exploration.world_map_m = seen_from_above(world.bounds_m);
   }
+  if (options.lidar_sees_people) drive.exploration.people = world.people;
   if (!drive.start.empty()) return drive;
   drive.start = first_start(world.scene, world.bounds_m, drive.exploration);
   print_message("starts at " + pose_text(drive.start) +

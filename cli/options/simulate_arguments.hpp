@@ -18,6 +18,7 @@ struct SimulateOptions {
   std::string explorer;  ///< of ExplorerKind's names; empty: as the drive has it
   bool explores_open_ground = false;
   bool has_people = true;  ///< those of the world
+  bool lidar_sees_people = false;
   std::string trajectory_file;  ///< empty: the robot drives by itself
   bool is_exploring_only = false;
   SimulationOptions simulation;

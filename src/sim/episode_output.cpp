@@ -31,11 +31,8 @@ Json count_or_null(const std::optional<std::uint64_t>& count) {
   return count ? Json(*count) : Json(nullptr);
 }
 
-/// None where it was not counted.
-std::optional<std::uint64_t> ghosts_of(const Json& json) {
-  const auto ghosts = json.find("ghosts");
-  if (ghosts == json.end() || ghosts->is_null()) return std::nullopt;
-  return ghosts->get<std::uint64_t>();
+std::optional<std::uint64_t> count_if_any(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<std::uint64_t>());
 }
 
 std::string percent(double share) { return decimal(100.0 * share, 0) + " %"; }
@@ -222,7 +219,7 @@ EpisodeReport episode_report_of(const Json& json) {
                       .captures = count(json, "captures"),
                       .voxels = count(json, "voxels"),
                       .information = number(json, "information"),
-                      .ghosts = ghosts_of(json),
+                      .ghosts = count_if_any(json.at("ghosts")),
                       .growth = growth_of(json.at("growth")),
                       .prediction = {.steps = count(prediction, "steps"),
                                      .sum_x = number(pooled, "sum_x"),

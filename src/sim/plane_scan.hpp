@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nbvopt/sim/simulated_lidar.hpp"
+#include "sim/people/people_scene.hpp"
 
 namespace nbvopt {
 
@@ -18,5 +19,10 @@ struct PlaneBeam {
 /// are left out: where, it does not say.
 std::vector<PlaneBeam> plane_scan(const SimulatedLidar& lidar, const Transform& T_world_base,
                                   double range_max_m);
+
+/// Lets people stand in the beams' way: those that meet somebody end there without a hit, as maps
+/// take them that leave out what moves.
+void end_at_people(const PeopleScene& people, const SimulatedLidar& lidar,
+                   const Transform& T_world_base, std::vector<PlaneBeam>& beams);
 
 }  // namespace nbvopt

@@ -107,10 +107,10 @@ double Trajectory::length_m() const {
   return length_m;
 }
 
-Transform Trajectory::T_map_base(double time_s) const {
-  const auto after = std::ranges::upper_bound(points_, time_s, {}, &TrajectoryPoint::time_s);
-  const TrajectoryPoint& next = after == points_.end() ? points_.back() : *after;
-  const TrajectoryPoint& last = after == points_.begin() ? next : *(after - 1);
+Transform T_map_base_at(std::span<const TrajectoryPoint> points, double time_s) {
+  const auto after = std::ranges::upper_bound(points, time_s, {}, &TrajectoryPoint::time_s);
+  const TrajectoryPoint& next = after == points.end() ? points.back() : *after;
+  const TrajectoryPoint& last = after == points.begin() ? next : *(after - 1);
   const double span_s = next.time_s - last.time_s;
   const double part = span_s > 0.0 ? (time_s - last.time_s) / span_s : 0.0;
   const auto between = [&](double TrajectoryPoint::*value) {

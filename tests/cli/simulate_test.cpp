@@ -46,6 +46,29 @@ class Simulate : public ::testing::Test {
       folder.write("robot.yaml", "sensor: {horizontal_pixels: 96, vertical_pixels: 72}\n");
 };
 
+TEST_F(Simulate, LetsActorsWalkUnlessTheyAreLeftOut) {
+  const auto room_with_an_actor = [&](const std::string& pose) {
+    return folder.write(
+        "room.world",
+        "<sdf version='1.6'><world name='w'><model name='m'><link name='l'><visual name='v'><pose>"
+        "0 0 1 0 0 0</pose><geometry><box><size>6 6 2.5</size></box></geometry></visual></link>"
+        "</model><actor name='a'><pose>" +
+            pose + "</pose></actor></world></sdf>");
+  };
+  const auto simulated = [&](const std::string& world, const Arguments& more) {
+    Arguments arguments = episode({"--json", "--mode", "static"});
+    arguments[1] = world;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const std::string world = room_with_an_actor("2.2 0.7 0.8 0 0 0");
+  EXPECT_GT(nbvopt_json(simulated(world, {}))["ghosts"], 10);
+  EXPECT_TRUE(nbvopt_json(simulated(world, {"--without-people"}))["ghosts"].is_null());
+  const std::string in_the_wall = room_with_an_actor("2.9 0.7 0.8 0 0 0");
+  expect_refusal(nbvopt_run(simulated(in_the_wall, {})), 3,
+                 "actor 'a' stands in or at a wall or a piece of furniture at (2.9, 0.7)");
+}
+
 TEST_F(Simulate, WritesAllThatAnEpisodeLeavesBehind) {
   const std::string map_file = folder / "map.ot";
   const std::string metrics_file = folder / "metrics.jsonl";

@@ -9,6 +9,7 @@ namespace nbvopt {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 EpisodeReport made_episode() {
   EpisodeReport report;
@@ -38,6 +39,15 @@ TEST(EpisodeReport, IsTheSameAfterItsWayThroughText) {
   EXPECT_EQ(read.paper_counts.voxels, 20'000U);
   EXPECT_EQ(read.times.plan_ms, 4.5);
   EXPECT_EQ(read.summary.growth.points(), made_episode().summary.growth.points());
+}
+
+TEST(EpisodeReport, TellsOfGhostsWhereTheyWereCounted) {
+  EpisodeReport report = made_episode();
+  EXPECT_TRUE(to_json(report).at("ghosts").is_null());
+  EXPECT_THAT(to_text(report), Not(HasSubstr("ghosts")));
+  report.summary.ghosts = 12;
+  EXPECT_EQ(episode_report_of(to_json(report)).summary.ghosts, 12U);
+  EXPECT_THAT(to_text(report), HasSubstr("ghosts: 12 occupied voxels"));
 }
 
 TEST(EpisodeReport, ToleratesThatNothingWasPredicted) {
@@ -83,7 +93,7 @@ TEST(EpisodeReport, TellsHowFastTheMapGrew) {
 TEST(EpisodeReport, MissesEveryFigure) {
   for (const char* key :
        {"world", "mode", "motion_time_s", "seed", "duration_s", "captures", "voxels", "information",
-        "growth", "voxels_as_paper_counts", "information_as_paper_counts", "pose_source",
+        "ghosts", "growth", "voxels_as_paper_counts", "information_as_paper_counts", "pose_source",
         "localisation", "map_score", "prediction", "times_ms"}) {
     Json json = to_json(made_episode());
     json.erase(key);

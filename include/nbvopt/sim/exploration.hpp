@@ -11,6 +11,7 @@
 
 #include "nbvopt/core/transform.hpp"
 #include "nbvopt/sim/occupancy_grid.hpp"
+#include "nbvopt/sim/people.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/simulated_lidar.hpp"
 #include "nbvopt/sim/trajectory.hpp"
@@ -40,6 +41,8 @@ struct ExplorationOptions {
   /// beyond it lies open ground, where nothing is to be found: unless there is a region, frontiers
   /// there are left alone.
   Eigen::AlignedBox2d world_map_m = {};
+  /// Whom the lidar sees: they hide what is behind them. The seed is theirs, too. Empty: nobody.
+  People people = {};
   std::function<void(double time_s)> progress;  ///< called now and then; may throw to end it
 };
 

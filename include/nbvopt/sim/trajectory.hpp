@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct TrajectoryPoint {
   bool operator==(const TrajectoryPoint&) const = default;
 };
 
+/// T_map_base at a time, linear between points in the order of their times; before the first and
+/// after the last it stands.
+Transform T_map_base_at(std::span<const TrajectoryPoint> points, double time_s);
+
 /// A recorded drive.
 class Trajectory {
  public:
@@ -30,8 +35,8 @@ class Trajectory {
   double duration_s() const { return points_.back().time_s; }
   double length_m() const;  ///< of the way in the plane
 
-  /// T_map_base at a time, linear between points; before the first and after the last it stands.
-  Transform T_map_base(double time_s) const;
+  /// As T_map_base_at().
+  Transform T_map_base(double time_s) const { return T_map_base_at(points_, time_s); }
 
  private:
   std::vector<TrajectoryPoint> points_;

@@ -75,6 +75,7 @@ PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
       motion_(options.base, T_map_base.translation().head<2>(), yaw_of(T_map_base)) {
+  if (!options.people.persons.empty()) bystanders_.emplace(scene, options.people, options.seed);
   record();
   scan();
 }
@@ -116,8 +117,15 @@ void PlaneRobot::record() {
 
 void PlaneRobot::scan() {
   const Transform T_map_base = this->T_map_base();
+  std::vector<PlaneBeam> seen = plane_scan(lidar_, T_map_base, options_.mapping_range_m);
+  if (bystanders_) {
+    bystanders_->move_to(points_.back().time_s, [&](double time_s) {
+      return Eigen::Vector3d(T_map_base_at(points_, time_s).translation());
+    });
+    end_at_people(bystanders_->bodies(), lidar_, T_map_base, seen);
+  }
   std::vector<Beam> beams;
-  for (const PlaneBeam& beam : plane_scan(lidar_, T_map_base, options_.mapping_range_m)) {
+  for (const PlaneBeam& beam : seen) {
     const Eigen::Vector3d end_base_m(beam.end_base_m.x(), beam.end_base_m.y(), 0.0);
     beams.push_back({(T_map_base * end_base_m).head<2>(), beam.is_hit});
   }

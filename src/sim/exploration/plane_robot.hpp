@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "nbvopt/sim/exploration.hpp"
 #include "sim/exploration/base_motion.hpp"
 #include "sim/exploration/clearance_field.hpp"
 #include "sim/exploration/drive_costs.hpp"
+#include "sim/people/bystanders.hpp"
 
 namespace nbvopt {
 
@@ -56,6 +58,7 @@ class PlaneRobot {
 
   ExplorationOptions options_;
   SimulatedLidar lidar_;
+  std::optional<Bystanders> bystanders_;  ///< whom it sees
   double z_map_m_;
   OccupancyGrid grid_;
   ClearanceField clearance_;
