@@ -17,7 +17,7 @@ struct Waypoint {
   bool operator==(const Waypoint&) const = default;
 };
 
-/// A walk along waypoints, as SDF's <script> has it.
+/// A walk along waypoints, as an actor's script in SDF has it.
 struct ScriptedWalk {
   std::vector<Waypoint> waypoints = {};  ///< one or more; times begin at 0 and grow
   bool is_loop = true;                   ///< begins again when the last waypoint is reached
