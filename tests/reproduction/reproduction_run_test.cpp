@@ -87,7 +87,7 @@ class ReproductionRun : public testing::Test {
 };
 
 TEST_F(ReproductionRun, RunsEveryUnitOnce) {
-  const auto asked = run(options());
+  const auto asked = run(options(), {}, 1);
   EXPECT_EQ(asked.size(), kUnits);
   EXPECT_EQ(asked.front(), "drive") << "all the others need it";
   EXPECT_EQ(result.finished, kUnits);
