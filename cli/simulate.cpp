@@ -30,13 +30,14 @@ struct ReadyWorld {
 };
 
 /// The drive that was asked for, from the first free place where no start was given.
-DriveOptions drive_options(const SimulateOptions& options, const EpisodeOptions& episode,
+DriveOptions drive_options(const SimulateOptions& options, const SimulationOptions& simulation,
                            const ReadyWorld& world) {
   DriveOptions drive = options.drive;
   drive.explorer = enum_value<ExplorerKind>(options.explorer).value_or(drive.explorer);
-  drive.exploration.seed = episode.seed;
-  drive.robot = episode.robot;
-  drive.joints = episode.start_joints;
+  drive.exploration.seed = simulation.episode.seed;
+  drive.episode = simulation.episode;
+  if (options.has_people) drive.episode.people = world.people;
+  drive.resolution_m = simulation.resolution_m;
   if (!options.explores_open_ground) {
     drive.exploration.world_map_m = seen_from_above(world.bounds_m);
   }
@@ -149,7 +150,7 @@ void run_simulate(const SimulateOptions& options) {
   if (!options.trajectory_file.empty()) {
     return tell_episode(options, world, {read_trajectory(options.trajectory_file)}, simulation);
   }
-  const DriveOptions asked = drive_options(options, simulation.options().episode, world);
+  const DriveOptions asked = drive_options(options, simulation.options(), world);
   const Drive drive = drive_of(options, world.scene, asked);
   if (options.is_exploring_only) return tell_drive(options, drive, asked);
   tell_episode(options, world, drive, simulation);

@@ -14,6 +14,8 @@
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/map/voxel_grid.hpp"
 #include "nbvopt/sim/simulated_camera.hpp"
+#include "sim/base_course.hpp"
+#include "sim/episode_run.hpp"
 #include "sim/localisation/localiser.hpp"
 #include "sim/people/bystanders.hpp"
 #include "sim/people/ghosts.hpp"
@@ -60,10 +62,10 @@ std::optional<Bystanders> bystanders_of(const Scene& scene, const EpisodeOptions
 /// The state of an episode between captures.
 class EpisodeRun {
  public:
-  EpisodeRun(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
+  EpisodeRun(const Scene& scene, BaseCourse& course, const CameraMode& mode,
              const EpisodeOptions& options, UncertaintyMap& map,
              const std::function<void(const Capture&)>& observe)
-      : trajectory_(trajectory),
+      : course_(course),
         mode_(mode),
         options_(options),
         map_(map),
@@ -74,24 +76,23 @@ class EpisodeRun {
         bystanders_(bystanders_of(scene, options)),
         camera_(scene, options.robot.sensor, options.range_noise_m, options.seed,
                 bystanders_ ? &bystanders_->bodies() : nullptr),
-        localiser_(scene, trajectory, options.localisation, options.seed) {
+        localiser_(scene, course.trajectory(), options.localisation, options.seed) {
     std::vector<std::string> warnings;
     move_.from = move_.to = mast_.clamped(options.start_joints, warnings);
     const MapCounts counts = map.counts();
-    summary_.duration_s = trajectory.duration_s();
     summary_.voxels = counts.certain_voxels;
     summary_.information = counts.information;
     if (bystanders_) ghosts_.emplace(scene, map);
     if (mode.plans()) grid_ = VoxelGrid::whole(map);
     if (options.scores_map && errs()) map_of_true_poses_.emplace(map.resolution_m());
-    summary_.hazards =
-        options.hazards.value_or(HazardTable(trajectory.T_map_base(0.0).translation().z()));
+    summary_.hazards = options.hazards.value_or(
+        HazardTable(course.trajectory().T_map_base(0.0).translation().z()));
   }
 
   /// The loop of Fig. 4: capture, insert, plan, move, capture.
   EpisodeSummary run() {
     double time_s = 0.0;
-    for (std::uint64_t cycle = 1; time_s <= trajectory_.duration_s(); ++cycle) {
+    for (std::uint64_t cycle = 1; time_s <= settled_s(); ++cycle) {
       const double computing_s = 1e-3 * look_and_plan(time_s);
       // Multiples of t, since the errors of a sum would grow.
       const double next_s = options_.charge_computing
@@ -100,6 +101,7 @@ class EpisodeRun {
       capture_on_the_way(time_s, next_s);
       time_s = next_s;
     }
+    summary_.duration_s = settled_s();
     if (errs()) summary_.localisation = localiser_.record();
     if (options_.scores_map) {
       summary_.map_score = score_map(map_, errs() ? *map_of_true_poses_ : map_, scene_);
@@ -108,6 +110,8 @@ class EpisodeRun {
   }
 
  private:
+  double settled_s() const { return course_.trajectory().duration_s(); }
+
   /// Captures where the camera has been planned to look, and sets it in motion to the next view.
   /// Returns the computing time.
   double look_and_plan(double time_s) {
@@ -119,7 +123,9 @@ class EpisodeRun {
       summary_.prediction.add(capture.predicted_gain, capture.realised_gain);
     }
     insert(capture);
-    const NextView next = plan(capture, time_s + options_.motion_time_s);
+    const double next_s = time_s + options_.motion_time_s;
+    course_.settle(next_s, {grid_, summary_.hazards, summary_.information});
+    const NextView next = plan(capture, next_s);
     const double computing_ms = capture.insert_ms + capture.grid_ms + capture.plan_ms;
     const double departure_s = options_.charge_computing ? time_s + 1e-3 * computing_ms : time_s;
     move_ = {capture.joints, next.joints, departure_s};
@@ -135,7 +141,7 @@ class EpisodeRun {
     for (int i = 1;; ++i) {
       const double time_s = begin_s + i / *options_.capture_hz;
       // A capture that rounding puts just before the next view is that view's.
-      if (time_s >= end_s - kTimeTolerance_s || time_s > trajectory_.duration_s()) return;
+      if (time_s >= end_s - kTimeTolerance_s || time_s > settled_s()) return;
       Capture capture = begin_capture(time_s, true);
       insert(capture);
       observe_(capture);
@@ -210,7 +216,7 @@ class EpisodeRun {
     if (!grid_) return {.joints = capture.joints};
     const PlanRequest now = request(capture);
     PlanRequest next = now;
-    const BasePoses ahead = localiser_.ahead(std::min(next_s, trajectory_.duration_s()));
+    const BasePoses ahead = localiser_.ahead(next_s);
     next.T_map_base = ahead.T_map_base;
     return timed(capture.plan_ms, [&] {
       return mode_.next_view(ViewPlanner(grid_, options_.robot, summary_.hazards),
@@ -231,7 +237,7 @@ class EpisodeRun {
 
   bool is_expected() const { return options_.robot.sensor.gain.has(GainKind::expected); }
 
-  const Trajectory& trajectory_;
+  BaseCourse& course_;
   const CameraMode& mode_;
   const EpisodeOptions& options_;
   UncertaintyMap& map_;
@@ -241,7 +247,7 @@ class EpisodeRun {
   const Scene& scene_;
   std::optional<Bystanders> bystanders_;
   RobotPosition robot_map_m_ = [this](double time_s) {
-    return Eigen::Vector3d(trajectory_.T_map_base(time_s).translation());
+    return Eigen::Vector3d(course_.trajectory().T_map_base(time_s).translation());
   };
   SimulatedCamera camera_;
   std::optional<GhostCounter> ghosts_;
@@ -268,8 +274,15 @@ void EpisodeOptions::validate() const {
 EpisodeSummary run_episode(const Scene& scene, const Trajectory& trajectory, const CameraMode& mode,
                            const EpisodeOptions& options, UncertaintyMap& map,
                            const std::function<void(const Capture&)>& observe) {
+  RecordedCourse course(trajectory);
+  return run_episode_along(scene, course, mode, options, map, observe);
+}
+
+EpisodeSummary run_episode_along(const Scene& scene, BaseCourse& course, const CameraMode& mode,
+                                 const EpisodeOptions& options, UncertaintyMap& map,
+                                 const std::function<void(const Capture&)>& observe) {
   options.validate();
-  return EpisodeRun(scene, trajectory, mode, options, map, observe).run();
+  return EpisodeRun(scene, course, mode, options, map, observe).run();
 }
 
 }  // namespace nbvopt

@@ -9,6 +9,7 @@ enum class ExplorerKind {
   plane,            ///< frontiers in the lidar's map, as explore()
   volume,           ///< views that show much of the unknown, as explore_volume()
   volume_tekniker,  ///< the same as the paper's authors ran it
+  views,            ///< what the camera has to learn, as explore_views()
 };
 
 template <>
@@ -16,6 +17,7 @@ inline constexpr auto kEnumNames<ExplorerKind> = std::to_array<EnumName<Explorer
     {ExplorerKind::plane, "2d"},
     {ExplorerKind::volume, "3d"},
     {ExplorerKind::volume_tekniker, "3d-tekniker"},
+    {ExplorerKind::views, "nbv"},
 });
 
 }  // namespace nbvopt

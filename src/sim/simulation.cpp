@@ -6,6 +6,7 @@
 #include "core/stopwatch.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sim/floor.hpp"
+#include "nbvopt/sim/view_exploration.hpp"
 #include "nbvopt/sim/volume_exploration.hpp"
 
 namespace nbvopt {
@@ -34,10 +35,10 @@ Exploration exploration(const Scene& scene, const Transform& T_map_base,
                         const DriveOptions& options) {
   const auto in_volume = [&](VolumeExplorer explorer) {
     std::vector<std::string> warnings;
-    const Mast mast(options.robot.mast);
+    const Mast mast(options.episode.robot.mast);
     return explore_volume(scene, T_map_base,
-                          mast.T_base_sensor(mast.clamped(options.joints, warnings)), explorer,
-                          options.exploration);
+                          mast.T_base_sensor(mast.clamped(options.episode.start_joints, warnings)),
+                          explorer, options.exploration);
   };
   switch (options.explorer) {
     case ExplorerKind::plane:
@@ -46,6 +47,12 @@ Exploration exploration(const Scene& scene, const Transform& T_map_base,
       return in_volume(VolumeExplorer::bai2016);
     case ExplorerKind::volume_tekniker:
       return in_volume(VolumeExplorer::tekniker);
+    case ExplorerKind::views:
+      return explore_views(scene, T_map_base,
+                           {.drive = options.exploration,
+                            .episode = options.episode,
+                            .resolution_m = options.resolution_m})
+          .exploration;
   }
   throw UsageError("there is no such explorer");
 }

@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
-#include "nbvopt/mast/mast.hpp"
-#include "nbvopt/planner/robot.hpp"
 #include "nbvopt/sim/camera_mode.hpp"
 #include "nbvopt/sim/episode.hpp"
 #include "nbvopt/sim/exploration.hpp"
@@ -28,9 +26,9 @@ struct DriveOptions {
   std::vector<Eigen::Vector2d> goals_map_m = {};  ///< driven to in turn; empty: the base explores
   ExplorerKind explorer = ExplorerKind::plane;
   ExplorationOptions exploration = {};
-  /// What explorers look with that explore space: a camera that stays as it is on its mast.
-  Robot robot = {};
-  JointPosition joints = EpisodeOptions{}.start_joints;
+  /// How explorers look that explore space, and what their map is like.
+  EpisodeOptions episode = {};
+  double resolution_m = 0.1;
 };
 
 /// A box from above, as ExplorationOptions::world_map_m takes a world's; empty where that is.

@@ -84,18 +84,27 @@ TrajectoryPoint parse_point(std::string_view line, const Refuse& refuse) {
   return point;
 }
 
+/// Throws unless the point may follow.
+void require_next(const TrajectoryPoint& point, const TrajectoryPoint* previous,
+                  std::size_t number) {
+  const std::string what = fault(point, previous);
+  if (!what.empty()) {
+    throw InputError("trajectory point " + std::to_string(number) + ": " + what);
+  }
+}
+
 }  // namespace
 
 Trajectory::Trajectory(std::vector<TrajectoryPoint> points) : points_(std::move(points)) {
   if (points_.empty()) throw InputError("the trajectory has no point, it needs at least one");
-  const TrajectoryPoint* previous = nullptr;
-  for (const TrajectoryPoint& point : points_) {
-    if (const std::string what = fault(point, previous); !what.empty()) {
-      throw InputError("trajectory point " + std::to_string(&point - points_.data() + 1) + ": " +
-                       what);
-    }
-    previous = &point;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    require_next(points_[i], i == 0 ? nullptr : &points_[i - 1], i + 1);
   }
+}
+
+void Trajectory::append(const TrajectoryPoint& point) {
+  require_next(point, &points_.back(), points_.size() + 1);
+  points_.push_back(point);
 }
 
 double Trajectory::length_m() const {

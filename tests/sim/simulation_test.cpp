@@ -32,6 +32,19 @@ TEST(MakeDrive, DrivesToGoalsInsteadOfExploring) {
   EXPECT_NEAR(drive.trajectory.points().back().x_m, 0.6, 0.2);
 }
 
+TEST(MakeDrive, ExploresForViewsWithTheEpisodesCamera) {
+  const Scene scene(room_mesh());
+  DriveOptions options{.start = {0.0, -1.0, 0.0}, .explorer = ExplorerKind::views};
+  options.exploration.duration_max_s = 1.0;
+  options.episode.robot = coarse_robot();
+  const Drive drive = make_drive(scene, options);
+  EXPECT_EQ(drive.status, ExplorationStatus::time_limit);
+  EXPECT_EQ(drive.trajectory.duration_s(), 1.0);
+  options.episode.motion_time_s = -1.0;
+  EXPECT_THAT(message_of<InputError>([&] { make_drive(scene, options); }),
+              HasSubstr("the motion time of an episode"));
+}
+
 TEST(MakeDrive, RefusesAStartThatIsNone) {
   const Scene scene(room_mesh());
   EXPECT_THAT(message_of<InputError>([&] {

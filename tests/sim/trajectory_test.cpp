@@ -49,6 +49,15 @@ TEST(Trajectory, IsLinearBetweenPointsAndStandsBeyondThem) {
   EXPECT_TRUE(trajectory.T_map_base(9.0).isApprox(base_pose(3.0, 4.0, 0.5, 7.0), 1e-12));
 }
 
+TEST(Trajectory, GoesOnToLaterPointsOnly) {
+  Trajectory trajectory({{0.0, 0.0, 0.0, 0.5, 0.0}});
+  trajectory.append({2.0, 3.0, 4.0, 0.5, 7.0});
+  EXPECT_TRUE(trajectory.T_map_base(1.0).isApprox(base_pose(1.5, 2.0, 0.5, 3.5), 1e-12));
+  EXPECT_THROW(trajectory.append({2.0, 3.0, 4.0, 0.5, 7.0}), InputError);
+  EXPECT_THROW(trajectory.append({3.0, std::nan(""), 4.0, 0.5, 7.0}), InputError);
+  EXPECT_EQ(trajectory.points().size(), 2U);
+}
+
 TEST(Trajectory, MayBeASinglePoint) {
   const Trajectory trajectory({{0.0, 1.0, 2.0, 0.0, 0.5}});
   EXPECT_EQ(trajectory.duration_s(), 0.0);

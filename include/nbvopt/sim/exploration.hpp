@@ -47,7 +47,7 @@ struct ExplorationOptions {
 };
 
 enum class ExplorationStatus {
-  complete,     ///< no frontier is left that can be reached
+  complete,     ///< no frontier, or nothing else worth a way, is left that can be reached
   open_ground,  ///< but some are left alone on open ground
   time_limit,   ///< duration_max_s came first
 };

@@ -31,6 +31,9 @@ class Trajectory {
   /// Throws InputError unless there is a point, all numbers are finite, times start at 0 and grow.
   explicit Trajectory(std::vector<TrajectoryPoint> points);
 
+  /// Goes on to a later point. Throws InputError unless its numbers are finite and its time grows.
+  void append(const TrajectoryPoint& point);
+
   const std::vector<TrajectoryPoint>& points() const { return points_; }
   double duration_s() const { return points_.back().time_s; }
   double length_m() const;  ///< of the way in the plane

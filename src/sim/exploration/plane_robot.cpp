@@ -74,9 +74,9 @@ PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
       z_map_m_(T_map_base.translation().z()),
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
-      motion_(options.base, T_map_base.translation().head<2>(), yaw_of(T_map_base)) {
+      motion_(options.base, T_map_base.translation().head<2>(), yaw_of(T_map_base)),
+      trajectory_({point(0.0)}) {
   if (!options.people.persons.empty()) bystanders_.emplace(scene, options.people, options.seed);
-  record();
   scan();
 }
 
@@ -88,12 +88,12 @@ Transform PlaneRobot::T_map_base() const {
 void PlaneRobot::drive_to_next_scan() {
   do {
     step();
-  } while ((points_.size() - 1) % kStepsPerScan != 0 && !is_out_of_time());
+  } while (steps() % kStepsPerScan != 0 && !is_out_of_time());
   scan();
 }
 
 bool PlaneRobot::is_out_of_time() const {
-  return static_cast<double>(points_.size()) / kStepsPerSecond > options_.duration_max_s;
+  return static_cast<double>(steps() + 1) / kStepsPerSecond > options_.duration_max_s;
 }
 
 void PlaneRobot::stop() {
@@ -103,24 +103,21 @@ void PlaneRobot::stop() {
 
 void PlaneRobot::step() {
   motion_.step(1.0 / kStepsPerSecond);
-  record();
-  if (options_.progress && (points_.size() - 1) % kStepsPerProgress == 0) {
-    options_.progress(points_.back().time_s);
-  }
+  trajectory_.append(point(static_cast<double>(steps() + 1) / kStepsPerSecond));
+  if (options_.progress && steps() % kStepsPerProgress == 0) options_.progress(time_s());
 }
 
-void PlaneRobot::record() {
+TrajectoryPoint PlaneRobot::point(double time_s) const {
   const Eigen::Vector2d& position = motion_.position_map_m();
-  points_.push_back({static_cast<double>(points_.size()) / kStepsPerSecond, position.x(),
-                     position.y(), z_map_m_, motion_.yaw_rad()});
+  return {time_s, position.x(), position.y(), z_map_m_, motion_.yaw_rad()};
 }
 
 void PlaneRobot::scan() {
   const Transform T_map_base = this->T_map_base();
   std::vector<PlaneBeam> seen = plane_scan(lidar_, T_map_base, options_.mapping_range_m);
   if (bystanders_) {
-    bystanders_->move_to(points_.back().time_s, [&](double time_s) {
-      return Eigen::Vector3d(T_map_base_at(points_, time_s).translation());
+    bystanders_->move_to(time_s(), [&](double time_s) {
+      return Eigen::Vector3d(trajectory_.T_map_base(time_s).translation());
     });
     end_at_people(bystanders_->bodies(), lidar_, T_map_base, seen);
   }

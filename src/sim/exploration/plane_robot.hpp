@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "nbvopt/sim/exploration.hpp"
 #include "sim/exploration/base_motion.hpp"
@@ -39,7 +39,7 @@ class PlaneRobot {
   /// Whether what the lidar has seen since bars the rest of the way.
   bool is_path_blocked(const DriveCosts& costs) const;
 
-  double time_s() const { return points_.back().time_s; }
+  double time_s() const { return trajectory_.duration_s(); }
   Transform T_map_base() const;
   const Eigen::Vector2d& position_map_m() const { return motion_.position_map_m(); }
   double yaw_rad() const { return motion_.yaw_rad(); }  ///< not wrapped
@@ -49,12 +49,13 @@ class PlaneRobot {
   /// robot.
   DriveCosts drive_costs(bool through_unknown) const;
 
-  Trajectory trajectory() const { return Trajectory(points_); }
+  const Trajectory& trajectory() const { return trajectory_; }
 
  private:
   void step();
   void scan();
-  void record();
+  std::size_t steps() const { return trajectory_.points().size() - 1; }
+  TrajectoryPoint point(double time_s) const;
 
   ExplorationOptions options_;
   SimulatedLidar lidar_;
@@ -63,7 +64,7 @@ class PlaneRobot {
   OccupancyGrid grid_;
   ClearanceField clearance_;
   BaseMotion motion_;
-  std::vector<TrajectoryPoint> points_;
+  Trajectory trajectory_;
 };
 
 }  // namespace nbvopt
