@@ -30,9 +30,9 @@ void add_drive(CLI::App& simulate, SimulateOptions& options) {
           "--explore", options.explorer,
           "who chooses where it drives: 2d, the frontiers of the lidar's map; 3d, views that would "
           "show most of the unknown (Bai et al., 2016), seldom done before --duration-max; "
-          "3d-tekniker, the same as the paper's authors ran it; nbv, what the camera has to learn "
-          "a "
-          "second, looking as --mode auto does [2d]")
+          "3d-tekniker, the same as the paper's authors ran it; 3d-after-2d, 3d from where 2d "
+          "ends; "
+          "nbv, what the camera has to learn a second, looking as --mode auto does [2d]")
       ->type_name("NAME")
       ->check(CLI::IsMember(enum_names<ExplorerKind>()));
   simulate

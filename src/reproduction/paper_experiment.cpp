@@ -170,6 +170,7 @@ std::span<const EpisodeSetting> episode_settings() {
 std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer) {
   if (explorer == ExplorerKind::volume) return "3D";
   if (explorer == ExplorerKind::volume_tekniker) return "3D tekniker";
+  if (explorer == ExplorerKind::volume_after_plane) return "3D after 2D";
   return setting.mode == "static" ? "2D" : "2D+" + setting.mode + gain_suffix(setting, ' ');
 }
 

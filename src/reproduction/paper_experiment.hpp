@@ -36,8 +36,10 @@ std::span<const EpisodeSetting> episode_settings();
 /// What is run on the drives of explorers in space, which the paper calls 3D: its own test.
 inline const EpisodeSetting kSpatialSetting{"static", 0.5};
 
-/// Those explorers: the paper's, as it was published, and as the paper's authors ran it.
-inline constexpr std::array kSpatialExplorers{ExplorerKind::volume, ExplorerKind::volume_tekniker};
+/// Those explorers: the paper's, as it was published and as the paper's authors ran it, and what
+/// the paper proposes last.
+inline constexpr std::array kSpatialExplorers{ExplorerKind::volume, ExplorerKind::volume_tekniker,
+                                              ExplorerKind::volume_after_plane};
 
 /// Where the things of a reproduction lie in its folder.
 struct ReproductionFolder {

@@ -176,7 +176,7 @@ void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& pap
 }
 
 /// Another drive is compared with that in the plane from the same start. The paper's figures stand
-/// beside the first of the two.
+/// beside the first of them.
 ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment& environment,
                       ExplorerKind explorer, const ResultIndex& index) {
   ResultRow row;

@@ -16,7 +16,8 @@ namespace nbvopt {
 /// Which test of which environment a row is about.
 struct RowLabel {
   std::string environment;
-  std::string test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>", "3D" or "3D tekniker"
+  std::string
+      test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>", "3D", "3D tekniker" or "3D after 2D"
   std::optional<double> motion_time_s;
 };
 

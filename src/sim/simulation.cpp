@@ -33,20 +33,23 @@ Transform start_pose(const std::vector<double>& start, const Scene& scene) {
 
 Exploration exploration(const Scene& scene, const Transform& T_map_base,
                         const DriveOptions& options) {
-  const auto in_volume = [&](VolumeExplorer explorer) {
+  const auto T_base_sensor = [&] {
     std::vector<std::string> warnings;
     const Mast mast(options.episode.robot.mast);
-    return explore_volume(scene, T_map_base,
-                          mast.T_base_sensor(mast.clamped(options.episode.start_joints, warnings)),
-                          explorer, options.exploration);
+    return mast.T_base_sensor(mast.clamped(options.episode.start_joints, warnings));
   };
   switch (options.explorer) {
     case ExplorerKind::plane:
       return explore(scene, T_map_base, options.exploration);
     case ExplorerKind::volume:
-      return in_volume(VolumeExplorer::bai2016);
+      return explore_volume(scene, T_map_base, T_base_sensor(), VolumeExplorer::bai2016,
+                            options.exploration);
     case ExplorerKind::volume_tekniker:
-      return in_volume(VolumeExplorer::tekniker);
+      return explore_volume(scene, T_map_base, T_base_sensor(), VolumeExplorer::tekniker,
+                            options.exploration);
+    case ExplorerKind::volume_after_plane:
+      return explore_volume_after_plane(scene, T_map_base, T_base_sensor(), VolumeExplorer::bai2016,
+                                        options.exploration);
     case ExplorerKind::views:
       return explore_views(scene, T_map_base,
                            {.drive = options.exploration,

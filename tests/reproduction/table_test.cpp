@@ -82,7 +82,7 @@ TEST_F(Reproduction, HasARowForEveryTestInThePapersOrder) {
   EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+auto", "2D+auto expected", "2D+oracle", "2D",
                                  "2D+grid", "2D+grid-3", "2D+auto", "2D+auto expected", "2D+random",
                                  "2D+oracle", "2D", "2D+grid", "2D+auto", "2D+auto expected",
-                                 "2D+oracle", "3D", "3D tekniker"));
+                                 "2D+oracle", "3D", "3D tekniker", "3D after 2D"));
 }
 
 TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameTime) {
@@ -150,6 +150,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   at("cafe-2-static-0.5").episode = episode(3000, 900);
   at("cafe-1-3d-static-0.5").episode = episode(1500, 800);
   at("cafe-1-3d-tekniker-static-0.5").episode = episode(800, 400);
+  at("cafe-2-3d-after-2d-static-0.5").episode = episode(3000, 1000);
   const ReproductionTable made = table();
   const ResultRow& spatial = row(made, "cafe", "3D", 0.5);
   EXPECT_EQ(spatial.starts, 1.0);
@@ -157,6 +158,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   EXPECT_EQ(spatial.gain, 300.0);
   EXPECT_NEAR(spatial.voxels_percent.value(), 50.0, 1e-12);
   EXPECT_EQ(row(made, "cafe", "3D tekniker", 0.5).gain, -100.0);
+  EXPECT_EQ(row(made, "cafe", "3D after 2D", 0.5).gain, 100.0);
   // It learns on another drive, which the others are not held against.
   EXPECT_EQ(row(made, "cafe", "2D", 0.5).information, 700.0);
   EXPECT_EQ(row(made, "apartment", "3D", 0.5).remark, "missing");

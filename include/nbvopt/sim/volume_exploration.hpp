@@ -24,4 +24,10 @@ Exploration explore_volume(const Scene& scene, const Transform& T_map_base,
                            const Transform& T_base_sensor, VolumeExplorer explorer,
                            const ExplorationOptions& options);
 
+/// The same from where explore() ends, with the maps of plane and space that its drive has made:
+/// what the paper proposes last. Both drives are one trajectory, and share `duration_max_s`.
+Exploration explore_volume_after_plane(const Scene& scene, const Transform& T_map_base,
+                                       const Transform& T_base_sensor, VolumeExplorer explorer,
+                                       const ExplorationOptions& options);
+
 }  // namespace nbvopt

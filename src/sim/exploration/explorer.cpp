@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "sim/exploration/frontier_filter.hpp"
 #include "sim/exploration/frontier_trees.hpp"
 #include "sim/exploration/goal_assignment.hpp"
-#include "sim/exploration/plane_robot.hpp"
+#include "sim/exploration/plane_explorer.hpp"
 
 namespace nbvopt {
 
@@ -28,13 +29,15 @@ constexpr int kPatience = 15;
 
 class Explorer {
  public:
-  Explorer(const Scene& scene, const Transform& T_map_base, const ExplorationOptions& options)
+  Explorer(PlaneRobot& robot, const ExplorationOptions& options,
+           const std::function<void()>& on_scan)
       : region_(options),
-        robot_(scene, T_map_base, options),
+        robot_(robot),
+        on_scan_(on_scan),
         costs_(robot_.drive_costs(/*through_unknown=*/false)),
         trees_(robot_.position_map_m(), options.seed) {}
 
-  Exploration run() {
+  ExplorationStatus run() {
     ExplorationStatus status = ExplorationStatus::time_limit;
     while (!robot_.is_out_of_time()) {
       find_frontiers();
@@ -44,9 +47,10 @@ class Explorer {
         break;
       }
       robot_.drive_to_next_scan();
+      on_scan_();
     }
     robot_.stop();
-    return {status, robot_.trajectory(), robot_.grid()};
+    return status;
   }
 
  private:
@@ -100,7 +104,8 @@ class Explorer {
   std::vector<Eigen::Vector2d> reachable_border() const;
 
   DriveRegion region_;
-  PlaneRobot robot_;
+  PlaneRobot& robot_;
+  const std::function<void()>& on_scan_;
   DriveCosts costs_;
   FrontierTrees trees_;
   FrontierFilter frontiers_;
@@ -133,9 +138,16 @@ std::vector<Eigen::Vector2d> Explorer::reachable_border() const {
 
 std::string to_string(ExplorationStatus value) { return std::string(enum_name(value)); }
 
+ExplorationStatus explore_plane(PlaneRobot& robot, const ExplorationOptions& options,
+                                const std::function<void()>& on_scan) {
+  return Explorer(robot, options, on_scan).run();
+}
+
 Exploration explore(const Scene& scene, const Transform& T_map_base,
                     const ExplorationOptions& options) {
-  return Explorer(scene, T_map_base, options).run();
+  PlaneRobot robot(scene, T_map_base, options);
+  const ExplorationStatus status = explore_plane(robot, options, [] {});
+  return {status, robot.trajectory(), robot.grid()};
 }
 
 }  // namespace nbvopt

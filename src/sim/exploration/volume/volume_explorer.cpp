@@ -29,6 +29,9 @@ class VolumeExploration {
         information_(rules.camera),
         random_(options.seed) {}
 
+  /// Explores the plane first, with the camera on.
+  void explore_plane(const ExplorationOptions& options) { robot_.explore_plane(options); }
+
   Exploration run() {
     ExplorationStatus status = ExplorationStatus::time_limit;
     robot_.look();
@@ -98,6 +101,14 @@ Exploration explore_volume(const Scene& scene, const Transform& T_map_base,
                            const Transform& T_base_sensor, VolumeExplorer explorer,
                            const ExplorationOptions& options) {
   return VolumeExploration(scene, T_map_base, T_base_sensor, rules_of(explorer), options).run();
+}
+
+Exploration explore_volume_after_plane(const Scene& scene, const Transform& T_map_base,
+                                       const Transform& T_base_sensor, VolumeExplorer explorer,
+                                       const ExplorationOptions& options) {
+  VolumeExploration exploration(scene, T_map_base, T_base_sensor, rules_of(explorer), options);
+  exploration.explore_plane(options);
+  return exploration.run();
 }
 
 }  // namespace nbvopt

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "nbvopt/map/scan.hpp"
+#include "sim/exploration/plane_explorer.hpp"
 
 namespace nbvopt {
 namespace {
@@ -35,6 +36,10 @@ const VoxelGrid& VolumeRobot::grid() {
   if (!changes_.empty()) grid_ = grid_->updated(changes_);
   changes_.clear();
   return *grid_;
+}
+
+void VolumeRobot::explore_plane(const ExplorationOptions& options) {
+  nbvopt::explore_plane(base_, options, [this] { on_scan(); });
 }
 
 void VolumeRobot::on_scan() {

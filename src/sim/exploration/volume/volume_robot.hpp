@@ -25,6 +25,9 @@ class VolumeRobot {
   /// Takes a frame from where it is.
   void look();
 
+  /// Explores the plane first, as explore() does.
+  void explore_plane(const ExplorationOptions& options);
+
   /// Turns on the spot by an angle, braking first where it drives.
   void turn_by(double angle_rad);
 

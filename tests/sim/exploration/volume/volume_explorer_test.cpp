@@ -40,6 +40,24 @@ TEST_F(VolumeExplorerTest, EndsByItselfInASmallRoom) {
             made.trajectory.points());
 }
 
+TEST_F(VolumeExplorerTest, GoesOnWhereAnExplorationOfThePlaneEnds) {
+  ExplorationOptions options;
+  options.duration_max_s = 600.0;
+  const Transform T_base_sensor = Mast(MastOptions{}).T_base_sensor({.height_m = 0.4});
+  const Transform start = base_pose(0.8, 0.8, 0.0, 0.3);
+  const std::vector<TrajectoryPoint> alone =
+      nbvopt::explore(scene_, start, options).trajectory.points();
+  const Exploration made =
+      explore_volume_after_plane(scene_, start, T_base_sensor, VolumeExplorer::bai2016, options);
+  const std::vector<TrajectoryPoint>& both = made.trajectory.points();
+  EXPECT_EQ(made.status, ExplorationStatus::complete);
+  ASSERT_GT(both.size(), alone.size());
+  EXPECT_TRUE(std::equal(alone.begin(), alone.end(), both.begin()));
+  // There it turns around once.
+  const auto farthest = std::ranges::max_element(both, {}, &TrajectoryPoint::yaw_rad);
+  EXPECT_GT(farthest->yaw_rad - alone.back().yaw_rad, 6.0);
+}
+
 TEST_F(VolumeExplorerTest, EndsInTime) {
   ExplorationOptions options;
   options.duration_max_s = 9.0;
