@@ -299,11 +299,11 @@ TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {
   const std::string markdown = to_markdown(table());
   EXPECT_THAT(
       markdown,
-      HasSubstr("| 2D (t=0.5) | 1 | 12,345 | - | 1,000 | 1,000 | 1,000 | - | - | 100 | 123 | "
+      HasSubstr("| 2D (t=0.5) | 1 | 12,345 | - | 1,000 | 1,000 | 1,000 | - | - | - | 100 | 123 | "
                 "10 |"));
   EXPECT_THAT(
       markdown,
-      HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.54% | 988 | 988 | 988 | \u221212 | "
+      HasSubstr("| 2D+grid (t=0.5) | 1 | 1,234,567 | 9900.54% | 988 | 988 | 988 | - | \u221212 | "
                 "\u22121.23% | 100 |"));
   EXPECT_THAT(markdown, HasSubstr("| 49.50% | 56.35% | 227 | 245 |\n"));
   EXPECT_THAT(markdown, HasSubstr("| all | 2D+grid (t=0.5) | 2 | 1.000 | \u221225.00% |\n"));
