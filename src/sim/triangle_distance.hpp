@@ -1,7 +1,7 @@
 // How far a point is from a triangle.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace nbvopt {
