@@ -36,7 +36,7 @@ std::vector<const ExperimentEnvironment*> chosen_environments(
 }
 
 fs::path world_of(const ExperimentEnvironment& environment, const fs::path& worlds_folder) {
-  const fs::path world = worlds_folder / environment.world_file;
+  fs::path world = worlds_folder / environment.world_file;
   std::error_code ignored;
   if (!fs::is_regular_file(world, ignored)) {
     throw InputError(world.string() + ": there is no such world; the environment '" +

@@ -136,7 +136,7 @@ std::vector<Eigen::Vector2d> Explorer::reachable_border() const {
 
 }  // namespace
 
-std::string to_string(ExplorationStatus value) { return std::string(enum_name(value)); }
+std::string to_string(ExplorationStatus status) { return std::string(enum_name(status)); }
 
 ExplorationStatus explore_plane(PlaneRobot& robot, const ExplorationOptions& options,
                                 const std::function<void()>& on_scan) {
