@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-struct _cairo;  // Cairo stays in canvas.cpp
+// Cairo stays in canvas.cpp.
+struct _cairo;  // NOLINT(bugprone-reserved-identifier): its own name
 
 namespace nbvopt {
 
