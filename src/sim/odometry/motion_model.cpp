@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/normal.hpp"
+
 namespace nbvopt {
 namespace {
 
@@ -12,6 +14,12 @@ constexpr double kRotationPerRotation = 0.2;                  ///< stt, rad/rad
 constexpr double kAcross = 0.3 * kTranslationPerTranslation;  ///< of the other axis, m/m
 
 }  // namespace
+
+Eigen::Vector3d MotionModel::draw_normals(std::mt19937_64& generator) {
+  Eigen::Vector3d normals;
+  for (double& normal : normals) normal = standard_normal(generator);
+  return normals;
+}
 
 Eigen::Vector3d MotionModel::deviations(const PlanarPose& motion) const {
   const double dx_m = std::abs(motion.x_m);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <random>
 
 #include "sim/odometry/planar_pose.hpp"
 
@@ -12,6 +13,9 @@ namespace nbvopt {
 /// next.
 class MotionModel {
  public:
+  /// Three standard normal numbers, as erring() takes them.
+  static Eigen::Vector3d draw_normals(std::mt19937_64& generator);
+
   /// `scale` multiplies all deviations; 0: the wheels do not err.
   explicit MotionModel(double scale) : scale_(scale) {}
 

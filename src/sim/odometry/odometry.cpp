@@ -4,8 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "core/normal.hpp"
-
 namespace nbvopt {
 namespace {
 
@@ -18,12 +16,6 @@ constexpr double kStepTime_s = 2.0;
 
 constexpr double kTimeTolerance_s = 1e-9;
 
-Eigen::Vector3d draw_normals(std::mt19937_64& generator) {
-  Eigen::Vector3d normals;
-  for (double& normal : normals) normal = standard_normal(generator);
-  return normals;
-}
-
 }  // namespace
 
 Odometry::Odometry(const Trajectory& trajectory, const MotionModel& model, std::uint64_t seed)
@@ -31,7 +23,7 @@ Odometry::Odometry(const Trajectory& trajectory, const MotionModel& model, std::
   std::seed_seq seeds{seed, seed >> 32, std::uint64_t{0x0d0}};
   std::mt19937_64 generator(seeds);
   const PlanarPose start = planar_pose(trajectory.T_map_base(0.0));
-  steps_.push_back({0.0, start, start, draw_normals(generator)});
+  steps_.push_back({0.0, start, start, MotionModel::draw_normals(generator)});
   // Multiples of the period, since the errors of a sum would grow.
   for (int scan = 1; scan * kScanPeriod_s <= trajectory.duration_s(); ++scan) {
     const double time_s = scan * kScanPeriod_s;
@@ -44,7 +36,7 @@ Odometry::Odometry(const Trajectory& trajectory, const MotionModel& model, std::
       continue;
     }
     const PlanarPose T_odom_base = step.T_odom_base * model_.erring(motion, step.normals);
-    steps_.push_back({time_s, T_world_base, T_odom_base, draw_normals(generator)});
+    steps_.push_back({time_s, T_world_base, T_odom_base, MotionModel::draw_normals(generator)});
   }
 }
 

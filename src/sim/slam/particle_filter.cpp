@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/normal.hpp"
 #include "core/uniform.hpp"
 #include "map/parts.hpp"
 #include "sim/slam/scan_matcher.hpp"
@@ -56,9 +55,8 @@ ParticleFilter::ParticleFilter(const MotionModel& model, const PlanarPose& T_map
 
 void ParticleFilter::update(const PlanarPose& motion, std::span<const PlaneBeam> scan) {
   for (Particle& particle : particles_) {
-    Eigen::Vector3d normals;
-    for (double& normal : normals) normal = standard_normal(generator_);
-    particle.T_map_base = particle.T_map_base * model_.erring(motion, normals);
+    particle.T_map_base =
+        particle.T_map_base * model_.erring(motion, MotionModel::draw_normals(generator_));
   }
   const std::vector<Eigen::Vector2f> hits_base_m = hits_of(scan);
   for_each_part(particles_.size(), 1, [&](std::size_t first, std::size_t last) {
