@@ -144,9 +144,9 @@ void set_up_reproduce(CLI::App& app) {
       "and\n"
       "random views for t = 0.5 s. Explores in 3D, too, alone and after 2D, with a still camera "
       "and\n"
-      "t = 0.5 s. Prints table.md and writes it to --out, with report.html (all of it with charts\n"
-      "and maps), table.csv, comparison.csv, prediction.csv and table.json. What is done already,\n"
-      "by the same command, is not run "
+      "t = 0.5 s, and for views, with auto and t = 0.5 s. Prints table.md and writes it to --out,\n"
+      "with report.html (all of it with charts and maps), table.csv, comparison.csv,\n"
+      "prediction.csv and table.json. What is done already, by the same command, is not run "
       "again.\n"
       "Example: nbvopt reproduce --worlds worlds --out reproduction");
   command->callback([options, worker] {

@@ -31,8 +31,7 @@ std::vector<Test> tests_of(std::span<const Unit> units, std::span<const UnitResu
       return known.name == name && known.motion_time_s == setting->motion_time_s;
     });
     if (test == tests.end()) {
-      const bool is_auto = setting->mode == "auto" && units[i].explorer == ExplorerKind::plane;
-      test = tests.insert(tests.end(), {name, setting->motion_time_s, is_auto});
+      test = tests.insert(tests.end(), {name, setting->motion_time_s, setting->mode == "auto"});
     }
     test->information[{units[i].environment, units[i].start}] =
         results[i].episode->summary.information;

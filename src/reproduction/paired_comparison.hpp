@@ -25,8 +25,8 @@ struct PairedComparison {
   double holm_p = 1.0;  ///< corrected for all comparisons
 };
 
-/// 2D with `auto`, for each gain and t, against every other test of that t; none where no start has
-/// both.
+/// What looks by `auto`, in the plane for each gain and t, against every other test of that t; none
+/// where no start has both.
 std::vector<PairedComparison> compare_tests(std::span<const Unit> units,
                                             std::span<const UnitResult> results);
 

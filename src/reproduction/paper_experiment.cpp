@@ -46,7 +46,7 @@ fs::path world_of(const ExperimentEnvironment& environment, const fs::path& worl
 }
 
 double duration_max_s(const ExperimentEnvironment& environment, ExplorerKind explorer) {
-  if (explorer == ExplorerKind::plane) return environment.duration_max_s;
+  if (!ends_with_papers(explorer)) return environment.duration_max_s;
   const auto papers = paper_tables();
   return std::ranges::find(papers, environment.paper_name, &PaperEnvironment::name)
       ->spatial.duration_s;
@@ -168,17 +168,33 @@ std::span<const EpisodeSetting> episode_settings() {
 }
 
 std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer) {
-  if (explorer == ExplorerKind::volume) return "3D";
-  if (explorer == ExplorerKind::volume_tekniker) return "3D tekniker";
-  if (explorer == ExplorerKind::volume_after_plane) return "3D after 2D";
+  const auto tests = spatial_tests();
+  const auto test = std::ranges::find(tests, explorer, &SpatialTest::explorer);
+  if (test != tests.end()) return std::string(test->name);
   return setting.mode == "static" ? "2D" : "2D+" + setting.mode + gain_suffix(setting, ' ');
+}
+
+std::span<const SpatialTest> spatial_tests() {
+  static const SpatialTest kTests[] = {
+      {ExplorerKind::volume, "3D", {"static", 0.5}, true},
+      {ExplorerKind::volume_tekniker, "3D tekniker", {"static", 0.5}, true},
+      {ExplorerKind::volume_after_plane, "3D after 2D", {"static", 0.5}, true},
+      {ExplorerKind::views, "NBV", expected(0.5), false},
+  };
+  return kTests;
+}
+
+bool ends_with_papers(ExplorerKind explorer) {
+  const auto tests = spatial_tests();
+  const auto test = std::ranges::find(tests, explorer, &SpatialTest::explorer);
+  return test != tests.end() && test->is_papers;
 }
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
   std::vector<Unit> units;
   append_units(units, options, ExplorerKind::plane, episode_settings());
-  for (const ExplorerKind explorer : kSpatialExplorers) {
-    append_units(units, options, explorer, {&kSpatialSetting, 1});
+  for (const SpatialTest& test : spatial_tests()) {
+    append_units(units, options, test.explorer, {&test.setting, 1});
   }
   return units;
 }

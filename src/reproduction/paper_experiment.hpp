@@ -2,7 +2,6 @@
 // and what is run there.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -33,13 +32,23 @@ std::span<const ExperimentEnvironment> experiment_environments();
 /// compared with.
 std::span<const EpisodeSetting> episode_settings();
 
-/// What is run on the drives of explorers in space, which the paper calls 3D: its own test.
-inline const EpisodeSetting kSpatialSetting{"static", 0.5};
+/// An explorer in space, whose drives are no others': a test of its own.
+struct SpatialTest {
+  ExplorerKind explorer;
+  std::string_view name;   ///< in the tables
+  EpisodeSetting setting;  ///< what is run on the drives
+  bool is_papers;          ///< its drives end when the paper's 3D exploration did
+};
 
-/// Those explorers: the paper's, as it was published and as the paper's authors ran it, and what
-/// the paper proposes last.
-inline constexpr std::array kSpatialExplorers{ExplorerKind::volume, ExplorerKind::volume_tekniker,
-                                              ExplorerKind::volume_after_plane};
+/// The paper's 3D, as it was published and as the paper's authors ran it; what the paper proposes
+/// last; and ours.
+std::span<const SpatialTest> spatial_tests();
+
+/// Whether the drives of an explorer end with the paper's, and seldom by themselves.
+bool ends_with_papers(ExplorerKind explorer);
+
+/// What tests in space are compared with: a still camera, on the drive in the plane.
+inline const EpisodeSetting kSpatialReference{"static", 0.5};
 
 /// Where the things of a reproduction lie in its folder.
 struct ReproductionFolder {
@@ -75,7 +84,7 @@ struct Unit {
 };
 
 /// How tables call what an episode tests: "2D", "2D+<mode>" or "2D+<mode> <gain>" on drives in the
-/// plane, "3D" or "3D tekniker" on those of explorers in space.
+/// plane, as SpatialTest has it on those of explorers in space.
 std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer = ExplorerKind::plane);
 
 /// All units, each drive before its episodes, those of explorers in space last; their worlds have

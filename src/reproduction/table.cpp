@@ -178,19 +178,19 @@ void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& pap
 /// Another drive is compared with that in the plane from the same start. The paper's figures stand
 /// beside the first of them.
 ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment& environment,
-                      ExplorerKind explorer, const ResultIndex& index) {
+                      const SpatialTest& test, const ResultIndex& index) {
   ResultRow row;
   row.environment = paper_label(paper);
-  row.test = test_name(kSpatialSetting, explorer);
-  row.motion_time_s = kSpatialSetting.motion_time_s;
-  if (explorer == ExplorerKind::volume) row.paper = &paper.spatial;
-  const Episodes episodes = index.episodes(environment, kSpatialSetting, explorer);
+  row.test = test.name;
+  row.motion_time_s = test.setting.motion_time_s;
+  if (test.explorer == ExplorerKind::volume) row.paper = &paper.spatial;
+  const Episodes episodes = index.episodes(environment, test.setting, test.explorer);
   if (episodes.empty()) {
     row.remark = "missing";
     return row;
   }
   set_figures(row, episodes);
-  set_comparison(row, episodes, index.episodes(environment, kSpatialSetting));
+  set_comparison(row, episodes, index.episodes(environment, kSpatialReference));
   return row;
 }
 
@@ -218,8 +218,8 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
     }
     rows.push_back(std::move(row));
   }
-  for (const ExplorerKind explorer : kSpatialExplorers) {
-    rows.push_back(spatial_row(paper, environment, explorer, index));
+  for (const SpatialTest& test : spatial_tests()) {
+    rows.push_back(spatial_row(paper, environment, test, index));
   }
 }
 
@@ -274,8 +274,7 @@ ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitRe
                           .predictions = prediction_rows(index)};
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!results[i].is_there()) table.missing.push_back(units[i].name);
-    // Those in space end with the paper's, seldom by themselves.
-    if (results[i].drive && units[i].explorer == ExplorerKind::plane &&
+    if (results[i].drive && !ends_with_papers(units[i].explorer) &&
         results[i].drive->status != ExplorationStatus::complete) {
       table.incomplete.push_back(units[i].name);
     }

@@ -16,8 +16,7 @@ namespace nbvopt {
 /// Which test of which environment a row is about.
 struct RowLabel {
   std::string environment;
-  std::string
-      test;  ///< "2D", "2D+<mode>", "2D+<mode> <gain>", "3D", "3D tekniker" or "3D after 2D"
+  std::string test;  ///< as test_name()
   std::optional<double> motion_time_s;
 };
 

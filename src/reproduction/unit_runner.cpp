@@ -37,6 +37,9 @@ Json answer(const SimulationUnit& unit, const DriveSetting& setting, const KeptW
   options.exploration.seed = unit.seed;
   options.exploration.world_map_m = world.seen_from_above_m;
   options.explorer = setting.explorer;
+  options.episode.robot.sensor.gain = GainKind::expected;  // as nbvopt simulate has it
+  options.episode.seed = unit.seed;
+  options.episode.people = world.people;
   const Drive drive = make_drive(world.scene, options);
   write_trajectory(drive.trajectory, unit.trajectory);
   return to_json(report_of(drive, options, unit.world.file.string()));

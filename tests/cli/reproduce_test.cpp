@@ -31,7 +31,7 @@ class Reproduce : public testing::Test {
     ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
   }
 
-  /// Two seconds from the apartment's first start: 24 units.
+  /// Two seconds from the apartment's first start: 26 units.
   Arguments arguments(const std::string& out, const Arguments& more = {}) const {
     Arguments all{"reproduce",      "--worlds",   folder / "worlds",
                   "--out",          folder / out, "--environments",
@@ -68,30 +68,31 @@ TEST_F(Reproduce, RunsTheExperimentAndWritesItsTables) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, file("out/table.md"));
   EXPECT_THAT(result.out, HasSubstr("|  | 2D+auto (t=0.5) | 1 | "));
-  EXPECT_THAT(result.out, HasSubstr("for lack of time: apartment-1-trajectory."));
+  EXPECT_THAT(result.out,
+              HasSubstr("for lack of time: apartment-1-trajectory, apartment-1-nbv-trajectory."));
   EXPECT_THAT(file("out/table.csv"), HasSubstr("apartment (19x11),2D+auto,0.5,1,"));
   EXPECT_THAT(file("out/prediction.csv"), HasSubstr("all,2D+auto,0.5,"));
   EXPECT_TRUE(json::parse(file("out/table.json"))["missing"].empty());
-  EXPECT_EQ(records("out").size(), 24U);
+  EXPECT_EQ(records("out").size(), 26U);
 
   const std::string before = file("out/records.jsonl");
   EXPECT_EQ(nbvopt_run(arguments("out")).out, result.out);
   EXPECT_EQ(file("out/records.jsonl"), before) << "what is done is not run again";
   const ProcessResult dry = nbvopt_run(arguments("out", {"--dry-run"}));
-  EXPECT_THAT(dry.out, testing::EndsWith("# 24 commands, 24 of them done\n"));
+  EXPECT_THAT(dry.out, testing::EndsWith("# 26 commands, 26 of them done\n"));
 }
 
 TEST_F(Reproduce, DryRunPrintsTheCommandsAndRunsNone) {
   const ProcessResult dry = nbvopt_run(arguments("out", {"--dry-run"}));
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
-  EXPECT_EQ(std::ranges::count(dry.out, '\n'), 25);
+  EXPECT_EQ(std::ranges::count(dry.out, '\n'), 27);
   EXPECT_THAT(dry.out, testing::StartsWith("nbvopt simulate "));
   EXPECT_THAT(dry.out, HasSubstr(" --start 0,0,0 --explore-only --trajectory-out "));
   EXPECT_THAT(dry.out,
               HasSubstr("--lidar-range 4 --duration-max 2 --explore 3d --seed 1 --summary "));
   EXPECT_THAT(dry.out,
               HasSubstr("--mode grid-3 --gain positive --motion-time 0.5 --seed 1 --summary "));
-  EXPECT_THAT(dry.out, testing::EndsWith("# 24 commands, 0 of them done\n"));
+  EXPECT_THAT(dry.out, testing::EndsWith("# 26 commands, 0 of them done\n"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
@@ -123,7 +124,7 @@ TEST_F(Reproduce, ItsCommandsDoWhatItDoes) {
     EXPECT_EQ(told, expected);
     ++compared;
   }
-  EXPECT_EQ(compared, 24U);
+  EXPECT_EQ(compared, 26U);
   EXPECT_EQ(file("out/units/apartment-1-trajectory.csv"), trajectory);
 }
 
@@ -154,11 +155,11 @@ TEST_F(Reproduce, AStopKeepsWhatIsDone) {
   EXPECT_THAT(file("stopped.log"), HasSubstr("the same command goes on where it was"));
   EXPECT_FALSE(fs::exists(folder / "out/table.md"));
   const std::size_t done = records("out").size();
-  EXPECT_LT(done, 24U);
+  EXPECT_LT(done, 26U);
   const ProcessResult dry = nbvopt_run(arguments("out", {"--dry-run"}));
-  EXPECT_THAT(dry.out, HasSubstr("# 24 commands, " + std::to_string(done) + " of them done"));
+  EXPECT_THAT(dry.out, HasSubstr("# 26 commands, " + std::to_string(done) + " of them done"));
   EXPECT_EQ(nbvopt_run(arguments("out")).exit_code, 0);
-  EXPECT_EQ(records("out").size(), 24U);
+  EXPECT_EQ(records("out").size(), 26U);
 }
 
 TEST_F(Reproduce, AFailedUnitIsToldAndLeavesAHole) {
@@ -167,7 +168,7 @@ TEST_F(Reproduce, AFailedUnitIsToldAndLeavesAHole) {
   const ProcessResult result = nbvopt_run(arguments("out"));
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, AllOf(HasSubstr("nbvopt: unit apartment-1-trajectory failed: "),
-                                HasSubstr("1 of 24 units failed; the tables in ")));
+                                HasSubstr("1 of 26 units failed; the tables in ")));
   EXPECT_THAT(result.out, HasSubstr("| 2D+auto (t=0.5): missing |"));
   EXPECT_EQ(result.out, file("out/table.md"));
   fs::remove_all(folder / "out/units/apartment-1-trajectory.csv");
@@ -179,7 +180,7 @@ TEST_F(Reproduce, NoticesAChangedWorld) {
   const std::string table = file("out/table.json");
   write_room_worlds(folder.path() / "worlds", 3.5);
   EXPECT_THAT(nbvopt_run(arguments("out", {"--dry-run"})).out,
-              HasSubstr("# 24 commands, 0 of them done"));
+              HasSubstr("# 26 commands, 0 of them done"));
   ASSERT_EQ(nbvopt_run(arguments("out")).exit_code, 0);
   EXPECT_NE(file("out/table.json"), table);
 }
@@ -188,7 +189,7 @@ TEST_F(Reproduce, PlansThePapersExperimentByDefault) {
   ExperimentOptions all;
   all.worlds_folder = folder.path() / "worlds";
   const auto units = experiment_units(all);
-  EXPECT_EQ(units.size(), 13U * 24U) << "three starts each, one in willowgarage";
+  EXPECT_EQ(units.size(), 13U * 26U) << "three starts each, one in willowgarage";
   for (const Unit& unit : units) EXPECT_EQ(unit.name.find(' '), std::string::npos);
 }
 

@@ -82,7 +82,7 @@ TEST_F(Reproduction, HasARowForEveryTestInThePapersOrder) {
   EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+auto", "2D+auto expected", "2D+oracle", "2D",
                                  "2D+grid", "2D+grid-3", "2D+auto", "2D+auto expected", "2D+random",
                                  "2D+oracle", "2D", "2D+grid", "2D+auto", "2D+auto expected",
-                                 "2D+oracle", "3D", "3D tekniker", "3D after 2D"));
+                                 "2D+oracle", "3D", "3D tekniker", "3D after 2D", "NBV"));
 }
 
 TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameTime) {
@@ -151,6 +151,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   at("cafe-1-3d-static-0.5").episode = episode(1500, 800);
   at("cafe-1-3d-tekniker-static-0.5").episode = episode(800, 400);
   at("cafe-2-3d-after-2d-static-0.5").episode = episode(3000, 1000);
+  at("cafe-1-nbv-auto-expected-0.5").episode = episode(1600, 1100);
   const ReproductionTable made = table();
   const ResultRow& spatial = row(made, "cafe", "3D", 0.5);
   EXPECT_EQ(spatial.starts, 1.0);
@@ -159,6 +160,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   EXPECT_NEAR(spatial.voxels_percent.value(), 50.0, 1e-12);
   EXPECT_EQ(row(made, "cafe", "3D tekniker", 0.5).gain, -100.0);
   EXPECT_EQ(row(made, "cafe", "3D after 2D", 0.5).gain, 100.0);
+  EXPECT_EQ(row(made, "cafe", "NBV", 0.5).gain, 600.0);
   // It learns on another drive, which the others are not held against.
   EXPECT_EQ(row(made, "cafe", "2D", 0.5).information, 700.0);
   EXPECT_EQ(row(made, "apartment", "3D", 0.5).remark, "missing");
@@ -167,7 +169,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
 TEST_F(Reproduction, ADriveInSpaceEndsWithThePapers) {
   for (const Unit& unit : units) {
     const auto* drive = std::get_if<DriveSetting>(&unit.simulation.setting);
-    if (drive == nullptr || drive->explorer == ExplorerKind::plane) continue;
+    if (drive == nullptr || !ends_with_papers(drive->explorer)) continue;
     EXPECT_EQ(drive->duration_max_s, unit.environment->name == "cafe" ? 2274.0 : 3018.0);
     at(unit.name).drive->status = ExplorationStatus::time_limit;
   }
@@ -261,6 +263,10 @@ TEST_F(Reproduction, TestsAreComparedOnTheStartsThatBothHave) {
   ASSERT_EQ(table().comparisons.size(), 2U);
   EXPECT_EQ(table().comparisons[1].other, "3D");
   EXPECT_NEAR(table().comparisons[1].mean_percent, -50.0, 1e-12);
+  at("cafe-1-nbv-auto-expected-0.5").episode = episode(1, 440);
+  const PairedComparison last = table().comparisons.back();
+  EXPECT_EQ(last.test + " against " + last.other, "NBV against 3D");
+  EXPECT_NEAR(last.mean_percent, 100.0, 1e-12);
   EXPECT_THAT(to_markdown(table()), HasSubstr("| 2D+auto | 2D+grid | 0.5 | 3 | 2 | 16.67% |"));
 }
 
