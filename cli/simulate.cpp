@@ -2,10 +2,13 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <utility>
 
 #include "cli/options/simulate_arguments.hpp"
 #include "cli/options/start_place.hpp"
+#include "cli/terminal/end_by_signal.hpp"
+#include "cli/terminal/held_signals.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
@@ -56,19 +59,42 @@ void tell_end(const Drive& drive) {
       "--open-ground explores it, too, --region bounds it elsewhere");
 }
 
-Drive drive_itself(const SimulateOptions& options, const Scene& scene, DriveOptions drive) {
+/// What a drive came to, and the signal that ended it, if one did.
+struct StoppableDrive {
+  Drive drive;
+  std::optional<int> stopped_by;
+};
+
+/// With signals held a drive ends where it is when one comes.
+StoppableDrive drive_itself(const SimulateOptions& options, const Scene& scene, DriveOptions drive,
+                            const std::optional<HeldSignals>& signals) {
   std::optional<Progress> progress;
   if (!options.is_silent) {
     progress.emplace("exploring, at most", drive.exploration.duration_max_s);
-    drive.exploration.progress = [&](double time_s) { progress->update(time_s); };
   }
-  return make_drive(scene, drive);
+  std::stop_source stop;
+  std::optional<int> stopped_by;
+  drive.exploration.stop = stop.get_token();
+  drive.exploration.progress = [&](double time_s) {
+    if (progress) progress->update(time_s);
+    if (signals && !stopped_by) stopped_by = signals->take();
+    if (stopped_by) stop.request_stop();
+  };
+  Drive made = make_drive(scene, drive);
+  return {std::move(made), stopped_by};
 }
 
-Drive drive_of(const SimulateOptions& options, const Scene& scene, const DriveOptions& asked) {
-  Drive drive = drive_itself(options, scene, asked);
-  tell_end(drive);
+/// Makes the drive and keeps it, as far as it came, where that was asked for. Lets the signals go.
+Drive drive_of(const SimulateOptions& options, const Scene& scene, const DriveOptions& asked,
+               std::optional<HeldSignals>& signals) {
+  auto [drive, stopped_by] = drive_itself(options, scene, asked, signals);
+  signals.reset();
   if (!options.trajectory_out.empty()) write_trajectory(drive.trajectory, options.trajectory_out);
+  if (stopped_by) {
+    end_by(*stopped_by,
+           "the drive so far is in " + options.trajectory_out + "; --trajectory replays it");
+  }
+  tell_end(drive);
   return drive;
 }
 
@@ -146,12 +172,14 @@ void run_simulate(const SimulateOptions& options) {
   check(options);
   const ThreadLimit thread_limit(options.robot);
   Simulation simulation = simulation_of(options);
+  std::optional<HeldSignals> signals;  // before reading starts threads, which would die of one
+  if (!options.trajectory_out.empty()) signals.emplace();
   const ReadyWorld world(read_world(options.world));
   if (!options.trajectory_file.empty()) {
     return tell_episode(options, world, {read_trajectory(options.trajectory_file)}, simulation);
   }
   const DriveOptions asked = drive_options(options, simulation.options(), world);
-  const Drive drive = drive_of(options, world.scene, asked);
+  const Drive drive = drive_of(options, world.scene, asked, signals);
   if (options.is_exploring_only) return tell_drive(options, drive, asked);
   tell_episode(options, world, drive, simulation);
 }

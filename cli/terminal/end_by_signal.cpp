@@ -7,8 +7,8 @@
 
 namespace nbvopt {
 
-void end_by(int signal) {
-  print_message("stopped; the same command goes on where it was");
+void end_by(int signal, const std::string& left) {
+  print_message("stopped; " + left);
   std::raise(signal);
   throw Error("stopped by a signal that this process ignores");
 }

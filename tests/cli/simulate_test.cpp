@@ -1,9 +1,14 @@
 // Episodes as a user runs them, in the office that ships.
+#include <csignal>
+#include <filesystem>
 #include <sstream>
 
 #include "cli/command_line.hpp"
 #include "core/text_file.hpp"
+#include "nbvopt/sim/trajectory.hpp"
+#include "support/background_process.hpp"
 #include "support/paths.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -36,6 +41,9 @@ class Simulate : public ::testing::Test {
     summary.erase("times_ms");
     return summary;
   }
+
+  /// With a coarse camera.
+  const std::string& robot() const { return robot_; }
 
   TemporaryFolder folder;
 
@@ -150,6 +158,22 @@ TEST_F(Simulate, ExploresUntilItMustEnd) {
       nbvopt_json(drive({"--json", "--start", "0.617,0.713,0", "--duration-max", "4"}));
   EXPECT_EQ(made["status"], "time_limit");
   EXPECT_NEAR(made["duration_s"], 4.0, 0.1);
+}
+
+TEST_F(Simulate, KeepsTheDriveThatASignalEnds) {
+  const std::string file = folder / "stopped.csv";
+  const std::string log = folder / "stopped.log";
+  BackgroundProcess process(
+      cli_program(), drive({"--explore", "nbv", "--robot", robot(), "--trajectory-out", file}),
+      log);
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::file_size(log) > 0; }))
+      << "it says where it starts";
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait(), -1) << "it ends by the signal";
+  EXPECT_THAT(read_text_file(log), HasSubstr("stopped; the drive so far is in " + file));
+  const Trajectory kept = read_trajectory(file);
+  EXPECT_GT(kept.duration_s(), 0.0);
+  EXPECT_LT(kept.duration_s(), 100.0) << "it would explore for longer";
 }
 
 TEST_F(Simulate, KeepsTheMapOfAnEpisodeThatTheDiskEnded) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct ExplorationOptions {
   double cell_m = 0.05;          ///< of the occupancy grid
   std::uint64_t seed = 1;        ///< of the trees
   double duration_max_s = 7200.0;
+  std::stop_token stop =
+      {};  ///< a request ends the exploration where it is, as duration_max_s does
   /// Frontiers and goals must lie in this polygon (x, y in the map), which closes itself; empty:
   /// they may lie anywhere.
   std::vector<Eigen::Vector2d> region_map_m = {};
@@ -49,7 +52,7 @@ struct ExplorationOptions {
 enum class ExplorationStatus {
   complete,     ///< no frontier, or nothing else worth a way, is left that can be reached
   open_ground,  ///< but some are left alone on open ground
-  time_limit,   ///< duration_max_s came first
+  time_limit,   ///< duration_max_s, or a request to stop, came first
 };
 std::string to_string(ExplorationStatus status);
 

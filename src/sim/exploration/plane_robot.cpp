@@ -9,6 +9,7 @@
 #include "nbvopt/core/error.hpp"
 #include "sim/exploration/drive_region.hpp"
 #include "sim/exploration/start_check.hpp"
+#include "sim/odometry/planar_pose.hpp"
 #include "sim/plane_scan.hpp"
 
 namespace nbvopt {
@@ -61,10 +62,6 @@ double clearance_min_m(const ExplorationOptions& options) {
   return options.base.radius_m + options.cell_m;
 }
 
-double yaw_of(const Transform& T_map_base) {
-  return std::atan2(T_map_base.linear()(1, 0), T_map_base.linear()(0, 0));
-}
-
 }  // namespace
 
 PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
@@ -74,7 +71,7 @@ PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
       z_map_m_(T_map_base.translation().z()),
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
-      motion_(options.base, T_map_base.translation().head<2>(), yaw_of(T_map_base)),
+      motion_(options.base, T_map_base.translation().head<2>(), planar_pose(T_map_base).yaw_rad),
       trajectory_({point(0.0)}) {
   if (!options.people.persons.empty()) bystanders_.emplace(scene, options.people, options.seed);
   scan();
@@ -93,7 +90,8 @@ void PlaneRobot::drive_to_next_scan() {
 }
 
 bool PlaneRobot::is_out_of_time() const {
-  return static_cast<double>(steps() + 1) / kStepsPerSecond > options_.duration_max_s;
+  return options_.stop.stop_requested() ||
+         static_cast<double>(steps() + 1) / kStepsPerSecond > options_.duration_max_s;
 }
 
 void PlaneRobot::stop() {
