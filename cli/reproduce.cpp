@@ -1,9 +1,11 @@
 #include "cli/reproduce.hpp"
 
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "experiment/worker.hpp"
 #include "nbvopt/core/error.hpp"
 #include "reproduction/page.hpp"
+#include "reproduction/paper_tables.hpp"
 #include "reproduction/reproduction_run.hpp"
 #include "reproduction/table.hpp"
 #include "reproduction/text.hpp"
@@ -28,6 +31,7 @@ struct ReproduceOptions {
   ExperimentOptions experiment;
   std::int64_t jobs = 0;  ///< processes at a time; 0: one a core
   bool dry_run = false;
+  bool tables_only = false;
 };
 
 std::size_t count_missing(const std::vector<UnitResult>& results) {
@@ -78,7 +82,7 @@ void reproduce(ReproduceOptions options) {
   if (options.dry_run) return print_commands(std::move(units), folder);
   create_folder(folder.units());  // first: it is soon known whether that can be done
   read_worlds(units);
-  const std::size_t failed = run_units(units, options);
+  const std::size_t failed = options.tables_only ? 0 : run_units(units, options);
   const std::vector<UnitResult> results = read_results(units, folder);
   const ReproductionTable table = make_table(units, results);
   write_tables(table, folder.root);
@@ -126,6 +130,26 @@ void set_up_reproduce(CLI::App& app) {
           "only these, with commas: simple_house, apartment, cafe, warehouse, willowgarage")
       ->type_name("NAME")
       ->delimiter(',');
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--explore",
+          [&experiment](const std::vector<std::string>& names) {
+            for (const std::string& name : names) {
+              experiment.explorers.push_back(enum_value<ExplorerKind>(name).value());
+            }
+          },
+          "only the drives of these explorers, with commas, as nbvopt simulate has them; those of "
+          "the paper in space are most of the work")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(enum_names<ExplorerKind>()))
+      ->delimiter(',');
+  command
+      ->add_option("--motion-time", experiment.motion_times_s,
+                   "only these t, with commas: 0.2, 0.5, 1")
+      ->type_name("SECONDS")
+      ->check(
+          CLI::IsMember(std::set<double>(kPaperMotionTimes_s.begin(), kPaperMotionTimes_s.end())))
+      ->delimiter(',');
   add_whole_number(*command, "--starts", experiment.starts, 1, 3,
                    "only the first so many starts of each environment");
   add_whole_number(*command, "--jobs", options->jobs, 0, 1024,
@@ -137,6 +161,8 @@ void set_up_reproduce(CLI::App& app) {
              "long as the paper's]");
   command->add_flag("--dry-run", options->dry_run,
                     "print the commands, one a line, and their number");
+  command->add_flag("--tables-only", options->tables_only,
+                    "run nothing, and write the tables of what is done so far");
   const CLI::App* worker = add_worker(*command, {worlds, out});
   command->footer(
       "Explores from every start once, then replays each trajectory with the camera still, with\n"

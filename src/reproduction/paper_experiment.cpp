@@ -1,6 +1,7 @@
 #include "reproduction/paper_experiment.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "core/number.hpp"
@@ -96,9 +97,20 @@ Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
   return unit;
 }
 
+template <class Value>
+bool is_chosen(const Value& value, const std::vector<Value>& chosen) {
+  return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
+}
+
 /// The drives of an explorer from all starts, then what is run on them.
 void append_units(std::vector<Unit>& units, const ExperimentOptions& options, ExplorerKind explorer,
-                  std::span<const EpisodeSetting> settings) {
+                  std::span<const EpisodeSetting> all_settings) {
+  std::vector<EpisodeSetting> settings;
+  std::ranges::copy_if(all_settings, std::back_inserter(settings),
+                       [&](const EpisodeSetting& setting) {
+                         return is_chosen(setting.motion_time_s, options.motion_times_s);
+                       });
+  if (settings.empty()) return;
   const std::size_t first = units.size();
   for (const ExperimentEnvironment* environment : chosen_environments(options.environments)) {
     const auto starts =
@@ -192,8 +204,11 @@ bool ends_with_papers(ExplorerKind explorer) {
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
   std::vector<Unit> units;
-  append_units(units, options, ExplorerKind::plane, episode_settings());
+  if (is_chosen(ExplorerKind::plane, options.explorers)) {
+    append_units(units, options, ExplorerKind::plane, episode_settings());
+  }
   for (const SpatialTest& test : spatial_tests()) {
+    if (!is_chosen(test.explorer, options.explorers)) continue;
     append_units(units, options, test.explorer, {&test.setting, 1});
   }
   return units;

@@ -64,6 +64,8 @@ struct ExperimentOptions {
   WorldOptions world = {};  ///< how worlds are read
   ReproductionFolder folder;
   std::vector<std::string> environments;  ///< by name; empty: all
+  std::vector<ExplorerKind> explorers;    ///< whose drives are made; empty: all
+  std::vector<double> motion_times_s;     ///< of what is run on them; empty: all
   std::int64_t starts = 3;                ///< the first so many of each environment
   std::int64_t seed = 1;
   /// Of explorations; none: as the environment has it, in space as the paper's Table 2 has it.

@@ -43,6 +43,14 @@ class ResultIndex {
     return std::ranges::find(units_, &environment, &Unit::environment) != units_.end();
   }
 
+  /// Whether it is asked for, anywhere.
+  bool has_test(const EpisodeSetting& setting, ExplorerKind explorer) const {
+    return std::ranges::any_of(units_, [&](const Unit& unit) {
+      const auto* episode = std::get_if<EpisodeSetting>(&unit.simulation.setting);
+      return unit.explorer == explorer && episode && *episode == setting;
+    });
+  }
+
   Episodes episodes(const ExperimentEnvironment& environment, const EpisodeSetting& setting,
                     ExplorerKind explorer = ExplorerKind::plane) const {
     Episodes found;
@@ -194,9 +202,11 @@ ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment
   return row;
 }
 
+/// Tests that were left out have no rows.
 void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
                  const ExperimentEnvironment& environment, const ResultIndex& index) {
   for (const EpisodeSetting& setting : episode_settings()) {
+    if (!index.has_test(setting, ExplorerKind::plane)) continue;
     ResultRow row;
     row.environment = paper_label(paper);
     row.test = test_name(setting);
@@ -219,6 +229,7 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
     rows.push_back(std::move(row));
   }
   for (const SpatialTest& test : spatial_tests()) {
+    if (!index.has_test(test.setting, test.explorer)) continue;
     rows.push_back(spatial_row(paper, environment, test, index));
   }
 }

@@ -156,6 +156,11 @@ TEST_F(Reproduce, AStopKeepsWhatIsDone) {
   EXPECT_FALSE(fs::exists(folder / "out/table.md"));
   const std::size_t done = records("out").size();
   EXPECT_LT(done, 26U);
+  const ProcessResult so_far = nbvopt_run(arguments("out", {"--tables-only"}));
+  EXPECT_EQ(so_far.exit_code, 0) << so_far.err;
+  EXPECT_EQ(so_far.out, file("out/table.md"));
+  EXPECT_THAT(so_far.out, HasSubstr("did not run to their end: "));
+  EXPECT_EQ(records("out").size(), done) << "nothing runs";
   const ProcessResult dry = nbvopt_run(arguments("out", {"--dry-run"}));
   EXPECT_THAT(dry.out, HasSubstr("# 26 commands, " + std::to_string(done) + " of them done"));
   EXPECT_EQ(nbvopt_run(arguments("out")).exit_code, 0);
@@ -221,6 +226,8 @@ TEST_F(Reproduce, RefusesWrongCommandLines) {
   refuse({"--environments", "apartment,moon"}, 2, "'moon' is none of simple_house, apartment");
   refuse({"--starts", "0"}, 3, "--starts is 0");
   refuse({"--jobs", "many"}, 2, "--jobs: 'many'");
+  refuse({"--explore", "2d,4d"}, 2, "--explore: 4d not in {2d,3d,");
+  refuse({"--motion-time", "0.4"}, 2, "--motion-time: 0.4 not in {0.2,0.5,1}");
   refuse({"--duration-max", "inf"}, 3, "--duration-max is inf");
   expect_refusal(nbvopt_run({"reproduce", "--out", "x"}), 2, "--worlds");
   expect_refusal(nbvopt_run({"reproduce", "--worlds", folder / "worlds", "--out", "/dev/null/x"}),
