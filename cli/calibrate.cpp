@@ -94,7 +94,7 @@ void set_up_calibrate(CLI::App& app) {
   add_number(*calibrate, "--resolution", options->resolution_m, "M", "of the maps' voxels");
   add_whole_number(*calibrate, "--seed", options->seed, 0, std::numeric_limits<std::int64_t>::max(),
                    "of random views and noise");
-  add_robot_file_argument(*calibrate, options->robot);
+  add_robot_and_threads(*calibrate, options->robot);
   add_world_reading_arguments(*calibrate, options->world);
   calibrate->add_flag("--json", options->json, "print one JSON object instead of text");
   calibrate->add_flag("--no-progress", options->is_silent, "show no progress bar");

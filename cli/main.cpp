@@ -8,6 +8,7 @@
 #include "cli/map.hpp"
 #include "cli/query.hpp"
 #include "cli/reproduce.hpp"
+#include "cli/robot.hpp"
 #include "cli/serve.hpp"
 #include "cli/simulate.hpp"
 #include "cli/study.hpp"
@@ -20,9 +21,9 @@
 namespace nbvopt {
 namespace {
 
-constexpr std::array kSubcommands{set_up_calibrate, set_up_query,     set_up_evaluate,
-                                  set_up_map,       set_up_reproduce, set_up_serve,
-                                  set_up_simulate,  set_up_study,     set_up_world};
+constexpr std::array kSubcommands{set_up_calibrate, set_up_query, set_up_evaluate, set_up_map,
+                                  set_up_reproduce, set_up_robot, set_up_serve,    set_up_simulate,
+                                  set_up_study,     set_up_world};
 
 /// Parses and runs. What CLI11 throws to show help or the version is an answer, too.
 void run(int argc, char** argv) {

@@ -11,6 +11,7 @@
 #include "cli/map_output.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/depth_image_arguments.hpp"
+#include "cli/options/robot_file_arguments.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/held_signals.hpp"
 #include "cli/terminal/output.hpp"
@@ -37,7 +38,7 @@ struct BuildOptions {
   double max_time_difference_s = RecordingOptions{}.max_time_difference_s;
   double resolution_m = 0.05;
   double save_every_s = 30.0;
-  std::string robot_file;  ///< empty: the paper's platform
+  RobotFileArguments robot;
   bool is_overwritten = false;
   bool json = false;
 };
@@ -132,7 +133,7 @@ void run_build(const BuildOptions& options) {
     throw InputError(options.output_file + ": is there already, give another name or --overwrite");
   }
   require_writable(options.output_file);
-  const Robot robot = options.robot_file.empty() ? Robot{} : read_robot(options.robot_file);
+  const Robot robot = read_robot(options.robot, {});
   const Recording recording = find_recording(options.recording_folder, recording_options(options));
   const fs::path partial_file = options.output_file + ".partial";
   MapBuilder builder(recording, robot.sensor, options.resolution_m, partial_file);
@@ -197,10 +198,7 @@ void set_up_map_build(CLI::App& map) {
   CLI::App* build = map.add_subcommand("build", "Make a map from a recording");
   add_recording_arguments(*build, *options);
   add_number(*build, "--resolution", options->resolution_m, "M", "the size of the map's voxels");
-  build
-      ->add_option("--robot", options->robot_file,
-                   "robot and sensor, a YAML file [the paper's platform]")
-      ->type_name("FILE");
+  add_robot_file(*build, options->robot);
   add_number(*build, "--save-every", options->save_every_s, "S",
              "how often OUT.partial is written, from which a build that was stopped goes on");
   build->add_flag("--overwrite", options->is_overwritten, "replace OUT if it is there");

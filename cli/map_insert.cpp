@@ -10,6 +10,7 @@
 #include "cli/map_output.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/depth_image_arguments.hpp"
+#include "cli/options/robot_file_arguments.hpp"
 #include "cli/terminal/output.hpp"
 #include "core/atomic_file.hpp"
 #include "core/stopwatch.hpp"
@@ -25,7 +26,7 @@ struct InsertOptions {
   std::string map_file;
   std::string scan_file;
   Transform T_map_sensor = Transform::Identity();
-  std::string robot_file;  ///< empty: the paper's platform
+  RobotFileArguments robot;
   DepthImageArguments depth_image;
   std::string output_file;  ///< empty: MAP itself
   std::optional<double> new_resolution_m;
@@ -89,7 +90,7 @@ void run_insert(InsertOptions& options) {
   if (format == MapFormat::bt) {
     print_message("warning: " + output_file + " cannot keep the uncertainty, give --out FILE.ot");
   }
-  const Robot robot = options.robot_file.empty() ? Robot{} : read_robot(options.robot_file);
+  const Robot robot = read_robot(options.robot, {});
   UncertaintyMap map = map_of(options);
   const Scan scan = read_scan(options.scan_file, depth_image_options(options.depth_image));
   if (!options.is_clear_only) require_in_range(options.scan_file, scan, robot.sensor);
@@ -150,10 +151,7 @@ void set_up_map_insert(CLI::App& map) {
   CLI::App* insert = map.add_subcommand("insert", "Add a scan to a map");
   insert->add_option("MAP", options->map_file, "a map: .bt or .ot")->required();
   add_scan_arguments(*insert, *options);
-  insert
-      ->add_option("--robot", options->robot_file,
-                   "robot and sensor, a YAML file [the paper's platform]")
-      ->type_name("FILE");
+  add_robot_file(*insert, options->robot);
   insert->add_option("--out", options->output_file, "the map to write [MAP]")->type_name("FILE");
   insert->add_flag("--overwrite", options->is_overwritten,
                    "keep no backup of the file that is replaced [it is kept as FILE.bak]");

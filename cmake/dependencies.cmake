@@ -11,6 +11,7 @@ find_package(nlohmann_json 3.11 REQUIRED CONFIG)
 # Debian's C++ build of NLopt, which has StoGO and AGS; the plain one throws when asked for them.
 find_package(NLopt 2.7 REQUIRED PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx NO_DEFAULT_PATH)
 find_package(Ceres 2.1 REQUIRED CONFIG)
+find_package(urdfdom REQUIRED CONFIG)
 # The simulator's: worlds, meshes, rays.
 if(NBVOPT_BUILD_SIM)
   find_package(embree 3.13 REQUIRED CONFIG)

@@ -26,16 +26,14 @@ void set_gain(SensorOptions& sensor, const RobotArguments& arguments) {
 
 }  // namespace
 
-void add_robot_file_argument(CLI::App& app, RobotArguments& arguments) {
-  app.add_option("--robot", arguments.robot_file,
-                 "robot and sensor, a YAML file [the paper's platform]")
-      ->type_name("FILE");
+void add_robot_and_threads(CLI::App& app, RobotArguments& arguments) {
+  add_robot_file(app, arguments.robot);
   add_whole_number(app, "--threads", arguments.threads, 0, 1024,
                    "most threads to use; 0: all cores. Answers do not depend on it");
 }
 
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments) {
-  add_robot_file_argument(app, arguments);
+  add_robot_and_threads(app, arguments);
   app.add_option("--gain", arguments.gain,
                  "positive: the first unknown voxel is a surface (Eq. 12); expected: surfaces come "
                  "with probabilities, learnt where scans are inserted; the gains of others by name "
@@ -73,7 +71,7 @@ ThreadLimit::ThreadLimit(const RobotArguments& arguments) {
 Robot make_robot(const RobotArguments& arguments) {
   Robot robot;
   robot.sensor.gain = arguments.default_gain;
-  if (!arguments.robot_file.empty()) robot = read_robot(arguments.robot_file, robot);
+  robot = read_robot(arguments.robot, robot);
   set_gain(robot.sensor, arguments);
   return robot;
 }

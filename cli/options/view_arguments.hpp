@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/options/robot_file_arguments.hpp"
 #include "nbvopt/gain/hazard_table.hpp"
 #include "nbvopt/planner/robot.hpp"
 
@@ -15,7 +16,7 @@ namespace nbvopt {
 
 /// What every command that has a robot asks for.
 struct RobotArguments {
-  std::string robot_file;                      ///< empty: the paper's platform
+  RobotFileArguments robot;
   GainKind default_gain = GainKind::positive;  ///< where neither `gain` nor the robot says
   std::string gain;                            ///< empty: as the robot says
   std::string hazards_file;                    ///< of an expected gain; empty: nothing was learnt
@@ -28,7 +29,7 @@ struct ViewArguments : RobotArguments {
 };
 
 /// The robot's file and the number of threads alone.
-void add_robot_file_argument(CLI::App& app, RobotArguments& arguments);
+void add_robot_and_threads(CLI::App& app, RobotArguments& arguments);
 /// Commands that learn from scans have the expected gain by default.
 void add_robot_arguments(CLI::App& app, RobotArguments& arguments);
 void add_view_arguments(CLI::App& app, ViewArguments& arguments);

@@ -47,14 +47,23 @@ void write_block(std::ostream& out, const Options& options) {
 
 }  // namespace
 
-Robot read_robot(const std::filesystem::path& path, const Robot& defaults) {
-  return parse_robot(read_text_file(path), path.string(), defaults);
+Robot read_robot(const std::filesystem::path& path, const Robot& defaults,
+                 const UrdfOptions& urdf) {
+  return parse_robot(read_text_file(path), path.string(), defaults, urdf);
 }
 
-Robot parse_robot(const std::string& yaml, const std::string& name, const Robot& defaults) {
+Robot parse_robot(const std::string& text, const std::string& name, const Robot& defaults,
+                  const UrdfOptions& urdf) {
   Robot robot = defaults;
+  if (is_xml(text)) {
+    robot.mast = read_urdf_mast(text, name, urdf).mast;
+    return robot;
+  }
+  if (urdf != UrdfOptions{}) {
+    throw InputError(name + ": is no URDF, only with one may the camera's or base's link be given");
+  }
   KeyCheck blocks({block_name(robot.sensor), block_name(robot.mast)}, "block");
-  for (const auto& [block, node] : entries(parse_yaml(yaml, name), name)) {
+  for (const auto& [block, node] : entries(parse_yaml(text, name), name)) {
     blocks.take(block, name, name + ": block '" + block + "'");
     const std::vector<FieldSetting> given = settings(node, name + ": " + block);
     if (block == block_name(robot.sensor)) {

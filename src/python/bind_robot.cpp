@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "mast/urdf_names.hpp"
+#include "nbvopt/core/error.hpp"
 #include "nbvopt/planner/plan.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "python/arrays.hpp"
@@ -26,17 +28,33 @@ py::array_t<double> sensor_poses(const Robot& robot, const py::object& base,
   return to_array(poses);
 }
 
+Robot robot_of(const std::optional<std::filesystem::path>& path, const std::string& camera_link,
+               const std::string& base_link, const std::optional<std::string>& camera_axes) {
+  UrdfOptions urdf{.camera_link = camera_link, .base_link = base_link};
+  if (camera_axes) {
+    urdf.camera_axes = enum_value<CameraAxes>(*camera_axes);
+    if (!urdf.camera_axes) {
+      throw InputError("camera_axes is '" + *camera_axes + "', it must be optical or body");
+    }
+  }
+  if (path) return read_robot(*path, {}, urdf);
+  if (urdf != UrdfOptions{}) throw InputError("links are of a URDF: give its path, too");
+  return {};
+}
+
 }  // namespace
 
 void bind_robot(py::module_& module) {
   py::class_<Robot>(module, "Robot",
                     "The camera and its mast. The default is the paper's platform; a YAML file "
-                    "with the blocks `sensor` and `mast` replaces what it names.")
-      .def(py::init([](const std::optional<std::filesystem::path>& path) {
-             return path ? read_robot(*path) : Robot{};
-           }),
-           py::arg("path") = py::none(),
-           "ValueError: the file is missing, or a key or value in it cannot be used.")
+                    "with the blocks `sensor` and `mast` replaces what it names, a URDF the mast.")
+      .def(py::init(&robot_of), py::arg("path") = py::none(), py::kw_only(),
+           py::arg("camera_link") = "", py::arg("base_link") = "",
+           py::arg("camera_axes") = py::none(),
+           "Of a URDF, `camera_link` names the optical centre's link, `base_link` the base's (else "
+           "its root), and `camera_axes` says whether the former's are 'optical' or 'body' (else "
+           "optical if its name says so). ValueError: the file is missing, or something in it "
+           "cannot be used.")
       .def_static(
           "parse", [](const std::string& yaml_text) { return parse_robot(yaml_text, "yaml_text"); },
           py::arg("yaml_text"), "The same from the text of such a file.")

@@ -1,5 +1,5 @@
-// Whatever text stands for a robot, parse_robot() gives a valid robot or an InputError; a robot
-// that was read is written and read again unchanged.
+// Whatever text stands for a robot, YAML or URDF, parse_robot() gives a valid robot or an
+// InputError; a robot that was read is written and read again unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,7 +11,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   try {
-    const nbvopt::Robot robot = nbvopt::parse_robot(text, "fuzz");
+    nbvopt::UrdfOptions urdf;
+    if (nbvopt::is_xml(text)) urdf.camera_link = "camera_link";
+    const nbvopt::Robot robot = nbvopt::parse_robot(text, "fuzz", {}, urdf);
     if (nbvopt::parse_robot(nbvopt::to_yaml(robot), "fuzz") != robot) std::abort();
   } catch (const nbvopt::InputError&) {
   }

@@ -263,6 +263,16 @@ class RobotTest(BindingsTest):
         self.assertEqual(nbvopt.Robot().range_m, (0.5, 4.0))
         np.testing.assert_allclose(np.degrees(nbvopt.Robot().half_fov_rad), (29.5, 23.0))
 
+    def test_urdf_is_the_papers_mast(self):
+        lift = pathlib.Path(OFFICE).parent / "robots" / "lift.urdf"
+        link = "camera_depth_optical_frame"
+        self.assertEqual(nbvopt.Robot(lift, camera_link=link), nbvopt.Robot())
+        self.assertEqual(nbvopt.Robot(lift, camera_link="camera_link"), nbvopt.Robot())
+        self.assert_refused(".*lift.urdf: .*give camera_link.*", nbvopt.Robot, lift)
+        for wrong in ({"camera_axes": "up"}, {"camera_axes": "body"}):
+            with self.assertRaises(ValueError):
+                nbvopt.Robot(lift, camera_link=link, **wrong)
+
     def test_yaml_reads_back(self):
         robot = nbvopt.Robot.parse("sensor: {range_max_m: 3}\nmast: {height_max_m: 1.2}")
         self.assertNotEqual(robot, self.robot)
