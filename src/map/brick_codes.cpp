@@ -7,6 +7,7 @@
 // Must come after foreach_target.h.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -22,19 +23,13 @@ static_assert(kWindow == 64, "a row of the window is one 64-bit word");
 /// Rows of the window, y running fastest.
 using BitWindow = std::array<std::uint64_t, kWindow * kWindow>;
 
-/// The bits of a brick's voxels that tell of their neighbours, a word a row.
-struct EdgeRows {
-  std::array<std::uint32_t, kBrickRows> first;   ///< kBesideSurfaceBit or kFrontierBit
-  std::array<std::uint32_t, kBrickRows> second;  ///< kFrontierBesideSurfaceBit
-};
-
 /// How the eroded sets follow from each other: set i is set `from` eroded by `by` more voxels.
 /// Two erosions by radius r and s make one by r + s; a set already eroded by R may be eroded by
 /// s <= 2 R + 1 with three samples an axis, since cubes of radius R that far apart still touch.
 struct Erosion {
   std::size_t from;
-  std::size_t by;
-  std::size_t radius;
+  int by;
+  int radius;
 };
 inline constexpr std::array<Erosion, 8> kErosions{{{0, 1, 1},
                                                    {1, 1, 2},
@@ -45,6 +40,16 @@ inline constexpr std::array<Erosion, 8> kErosions{{{0, 1, 1},
                                                    {4, 8, 12},
                                                    {6, 8, kCodeReach}}};
 
+/// How far around the brick a set must be known, for those that follow from it.
+constexpr int margin_of(std::size_t set) {
+  int margin = 0;
+  for (std::size_t i = 0; i < kErosions.size(); ++i) {
+    if (kErosions[i].from == set) margin = std::max(margin, kErosions[i].by + margin_of(i + 1));
+  }
+  return margin;
+}
+static_assert(margin_of(0) == kCodeReach);
+
 }  // namespace nbvopt::detail
 #endif
 
@@ -52,36 +57,67 @@ HWY_BEFORE_NAMESPACE();
 namespace nbvopt::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Each row and those `stride` before and after it, of the rows from `begin` to `end`.
-HWY_INLINE void and_three(const BitWindow& in, std::size_t begin, std::size_t end,
-                          std::size_t stride, BitWindow& out) {
-  const hn::ScalableTag<std::uint64_t> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t i = begin;
-  for (; i + lanes <= end; i += lanes) {
-    const auto kept = hn::And(hn::LoadU(d, &in[i]), hn::And(hn::LoadU(d, &in[i - stride]),
-                                                            hn::LoadU(d, &in[i + stride])));
-    hn::StoreU(kept, d, &out[i]);
-  }
-  for (; i < end; ++i) out[i] = in[i] & in[i - stride] & in[i + stride];
+/// Rows are taken some at once, which divide this many.
+constexpr int kStep = 8;
+constexpr hn::CappedTag<std::uint64_t, kStep> d_rows;
+constexpr hn::Rebind<std::uint32_t, decltype(d_rows)> d_half;
+constexpr int down_to_step(int row) { return row / kStep * kStep; }
+template <class D>
+HWY_INLINE int lanes_of(D d) {
+  return static_cast<int>(hn::Lanes(d));
 }
 
-/// Erodes by `by` more voxels, `radius` in total. What lies nearer to the window's edge than that
-/// is not valid, and not needed.
-void erode(const BitWindow& in, std::size_t by, std::size_t radius, BitWindow& along_x,
-           BitWindow& along_y, BitWindow& out) {
-  const hn::ScalableTag<std::uint64_t> d;
-  const int shift = static_cast<int>(by);
-  // Rows that are valid in `in`.
-  const std::size_t begin = (radius - by) * kWindow;
-  const std::size_t end = in.size() - begin;
-  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto row = hn::LoadU(d, &in[i]);
-    hn::StoreU(hn::And(row, hn::And(hn::ShiftLeftSame(row, shift), hn::ShiftRightSame(row, shift))),
-               d, &along_x[i]);
+/// Fills rows [begin, end) of the window, along y and z, with one kind of the voxels' bits.
+void fill_window(const BrickNeighbourhood& neighbourhood,
+                 std::array<std::uint32_t, kBrickRows> BrickStates::*bits, int begin, int end,
+                 BitWindow& window) {
+  for (int z = begin; z < end; ++z) {
+    const int key_z = z + kBrickSize - kCodeReach;  // counted from the lower neighbour's start
+    for (int y = down_to_step(begin); y < end; y += lanes_of(d_rows)) {
+      const int key_y = y + kBrickSize - kCodeReach;
+      const int row = (key_y & kBrickMask) | (key_z & kBrickMask) << kBrickBits;
+      const BrickStates* const* three =
+          &neighbourhood[3 * (key_y >> kBrickBits) + 9 * (key_z >> kBrickBits)];
+      const auto rows_of = [&](int i) HWY_ATTR {
+        return hn::PromoteTo(d_rows, hn::LoadU(d_half, &(three[i]->*bits)[row]));
+      };
+      const auto joined = hn::Or(hn::ShiftRight<kBrickSize - kCodeReach>(rows_of(0)),
+                                 hn::Or(hn::ShiftLeft<kCodeReach>(rows_of(1)),
+                                        hn::ShiftLeft<kBrickSize + kCodeReach>(rows_of(2))));
+      hn::Store(joined, d_rows, &window[z * kWindow + y]);
+    }
   }
-  and_three(along_x, begin + by, end - by, by, along_y);
-  and_three(along_y, radius * kWindow, in.size() - radius * kWindow, by * kWindow, out);
+}
+
+/// Erodes as `e` says, as far as the brick and a margin around it.
+void erode(const BitWindow& in, const Erosion& e, int margin, BitWindow& out) {
+  const int begin = kCodeReach - margin;
+  const int end = kWindow - begin;
+  const int y_begin = down_to_step(begin);
+  const int y_end = kWindow - y_begin;
+  alignas(64) std::array<std::uint64_t, kWindow + 2 * kStep> along_x{};  // of one z
+  alignas(64) BitWindow along_y;
+  static_assert(kErosions[7].by == kStep && kErosions[6].by == kStep);
+  for (int z = begin - e.by; z < end + e.by; ++z) {
+    const auto* rows = &in[z * kWindow];
+    for (int y = std::max(y_begin - kStep, 0); y < std::min(y_end + kStep, kWindow);
+         y += lanes_of(d_rows)) {
+      const auto row = hn::Load(d_rows, &rows[y]);
+      const auto beside = hn::And(hn::ShiftLeftSame(row, e.by), hn::ShiftRightSame(row, e.by));
+      hn::Store(hn::And(row, beside), d_rows, &along_x[kStep + y]);
+    }
+    for (int y = y_begin; y < y_end; y += lanes_of(d_rows)) {
+      const auto at = [&](int dy) HWY_ATTR { return hn::LoadU(d_rows, &along_x[kStep + y + dy]); };
+      hn::Store(hn::And(at(0), hn::And(at(-e.by), at(e.by))), d_rows, &along_y[z * kWindow + y]);
+    }
+  }
+  for (int z = begin; z < end; ++z) {
+    for (int y = y_begin; y < y_end; y += lanes_of(d_rows)) {
+      const auto at = [&](int dz)
+                          HWY_ATTR { return hn::Load(d_rows, &along_y[(z + dz) * kWindow + y]); };
+      hn::Store(hn::And(at(0), hn::And(at(-e.by), at(e.by))), d_rows, &out[z * kWindow + y]);
+    }
+  }
 }
 
 /// Bits of a code: five for a free voxel's leap, then those of the edge of what is known, of which
@@ -92,53 +128,87 @@ constexpr int kCodeBits = 8;
 /// The bits in which the code of a voxel in set i differs from that of one in set i - 1 only.
 constexpr int toggled_bits(std::size_t set) {
   if (set == 0) return 1;
-  const std::size_t before = set == 1 ? 0 : kErosions[set - 2].radius;
-  return static_cast<int>((1 + kErosions[set - 1].radius) ^ (1 + before));
+  const int before = set == 1 ? 0 : kErosions[set - 2].radius;
+  return (1 + kErosions[set - 1].radius) ^ (1 + before);
 }
 
-/// One bit plane of the codes, a word a row of the brick.
-using BitPlane = std::array<std::uint64_t, kBrickRows>;
+/// The bits of the brick's voxels, a plane a bit of their codes, a word a row.
+using BitPlanes = std::array<std::array<std::uint64_t, kBrickRows>, kCodeBits>;
 
-/// The sets are nested, so bit b of a free voxel's code is the parity of those sets that hold the
-/// voxel and toggle bit b.
-template <std::size_t... kSet>
-HWY_INLINE void leap_planes(const std::array<BitWindow, 1 + kErosions.size()>& sets,
-                            std::array<BitPlane, kLeapBits>& planes, std::index_sequence<kSet...>) {
-  const hn::CappedTag<std::uint64_t, 8> d;
+/// Visits the brick's rows: their place in the planes and in the window.
+template <class Visit>
+HWY_INLINE void for_each_rows(const Visit& visit) {
   for (int z = 0; z < kBrickSize; ++z) {
-    for (int y = 0; y < kBrickSize; y += static_cast<int>(hn::Lanes(d))) {
-      const std::size_t row = static_cast<std::size_t>((z + kCodeReach) * kWindow + y + kCodeReach);
-      for (int b = 0; b < kLeapBits; ++b) {
-        auto plane = hn::Zero(d);
-        const auto toggle = [&](std::size_t set, int bits) HWY_ATTR {
-          if ((bits >> b & 1) != 0) plane = hn::Xor(plane, hn::LoadU(d, &sets[set][row]));
-        };
-        (toggle(kSet, toggled_bits(kSet)), ...);
-        hn::StoreU(hn::ShiftRight<kCodeReach>(plane), d, &planes[b][z * kBrickSize + y]);
-      }
+    for (int y = 0; y < kBrickSize; y += lanes_of(d_rows)) {
+      visit(z * kBrickSize + y, (z + kCodeReach) * kWindow + y + kCodeReach);
     }
   }
 }
 
+/// The sets are nested, so bit b of a free voxel's code is the parity of those sets that hold the
+/// voxel and toggle bit b.
+template <std::size_t... kSet>
+HWY_INLINE void fill_leap_planes(const std::array<BitWindow, 1 + kErosions.size()>& sets,
+                                 BitPlanes& planes, std::index_sequence<kSet...>) {
+  for_each_rows([&](int place, int row) HWY_ATTR {
+    for (int b = 0; b < kLeapBits; ++b) {
+      auto plane = hn::Zero(d_rows);
+      const auto toggle = [&](std::size_t set, int bits) HWY_ATTR {
+        if ((bits >> b & 1) != 0) plane = hn::Xor(plane, hn::Load(d_rows, &sets[set][row]));
+      };
+      (toggle(kSet, toggled_bits(kSet)), ...);
+      hn::Store(hn::ShiftRight<kCodeReach>(plane), d_rows, &planes[b][place]);
+    }
+  });
+}
+
+/// The voxels of which a face neighbour is set.
+HWY_INLINE hn::Vec<decltype(d_rows)> with_neighbour(const BitWindow& window, int row) {
+  const auto at = [&](int i) HWY_ATTR { return hn::LoadU(d_rows, &window[row + i]); };
+  const auto along_x = hn::Or(hn::ShiftLeft<1>(at(0)), hn::ShiftRight<1>(at(0)));
+  return hn::Or(along_x, hn::Or(hn::Or(at(-1), at(1)), hn::Or(at(-kWindow), at(kWindow))));
+}
+
+/// The planes that tell of voxels' neighbours and states.
+void fill_edge_planes(const BrickNeighbourhood& neighbourhood, const BitWindow& free,
+                      BitPlanes& planes) {
+  constexpr int kBegin = kCodeReach - 1;
+  constexpr int kEnd = kWindow - kBegin;
+  alignas(64) BitWindow occupied, unknown;
+  fill_window(neighbourhood, &BrickStates::occupied, kBegin, kEnd, occupied);
+  for (int z = kBegin; z < kEnd; ++z) {
+    for (int y = down_to_step(kBegin); y < kEnd; y += lanes_of(d_rows)) {
+      const int row = z * kWindow + y;
+      const auto known = hn::Or(hn::Load(d_rows, &free[row]), hn::Load(d_rows, &occupied[row]));
+      hn::Store(hn::Not(known), d_rows, &unknown[row]);
+    }
+  }
+  for_each_rows([&](int place, int row) HWY_ATTR {
+    const auto beside_surface = with_neighbour(occupied, row);
+    const auto is_free = hn::Load(d_rows, &free[row]);
+    const auto frontier = hn::And(is_free, with_neighbour(unknown, row));
+    const auto store = [&](int b, auto bits) HWY_ATTR {
+      hn::Store(hn::ShiftRight<kCodeReach>(bits), d_rows, &planes[b][place]);
+    };
+    store(5, hn::Or(frontier, hn::And(beside_surface, hn::Load(d_rows, &unknown[row]))));
+    store(6, hn::Or(hn::Load(d_rows, &occupied[row]), hn::And(frontier, beside_surface)));
+    store(7, hn::Not(is_free));
+  });
+}
+
 /// One byte a voxel, in the order of code_index().
-void expand(const std::array<BitPlane, kLeapBits>& leap, const EdgeRows& edge,
-            const BrickStates& states, std::uint8_t* code) {
+void expand(const BitPlanes& planes, std::uint8_t* code) {
   const hn::CappedTag<std::uint8_t, kBrickSize> d;
   for (int row = 0; row < kBrickRows; ++row) {
-    std::array<std::uint64_t, kCodeBits> bits{};
-    for (int b = 0; b < kLeapBits; ++b) bits[b] = leap[b][row];
-    bits[5] = edge.first[row];
-    bits[6] = states.occupied[row] | edge.second[row];
-    bits[7] = ~states.free[row];
     alignas(32) std::array<std::uint8_t, kBrickSize> codes;
-    for (std::size_t x = 0; x < kBrickSize; x += hn::Lanes(d)) {
+    for (int x = 0; x < kBrickSize; x += lanes_of(d)) {
       auto value = hn::Zero(d);
       for (int b = 0; b < kCodeBits; ++b) {
-        const std::uint64_t word = bits[b] >> x;  // LoadMaskBits reads eight bytes
+        const std::uint64_t word = planes[b][row] >> x;  // LoadMaskBits reads eight bytes
         const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&word));
         value = hn::Or(value, hn::IfThenElseZero(mask, hn::Set(d, std::uint8_t(1U << b))));
       }
-      hn::StoreU(value, d, &codes[x]);
+      hn::Store(value, d, &codes[x]);
     }
     for (int x = 0; x < kBrickSize; x += 4) {  // four voxels along x stay together
       const VoxelKey key{static_cast<std::uint16_t>(x),
@@ -149,19 +219,23 @@ void expand(const std::array<BitPlane, kLeapBits>& leap, const EdgeRows& edge,
   }
 }
 
-void compute_window_codes(const BitWindow& free, const EdgeRows& edge, const BrickStates& states,
-                          std::uint8_t* code) {
+template <std::size_t... kErosion>
+HWY_INLINE void erode_all(std::array<BitWindow, 1 + kErosions.size()>& sets,
+                          std::index_sequence<kErosion...>) {
+  (erode(sets[kErosions[kErosion].from], kErosions[kErosion], margin_of(kErosion + 1),
+         sets[kErosion + 1]),
+   ...);
+}
+
+void compute_all_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code) {
   // Kept a thread: what is written anew needs no clearing.
-  thread_local std::array<BitWindow, 1 + kErosions.size()> sets;
-  thread_local BitWindow along_x, along_y;
-  sets[0] = free;
-  for (std::size_t i = 0; i < kErosions.size(); ++i) {
-    const Erosion& e = kErosions[i];
-    erode(sets[e.from], e.by, e.radius, along_x, along_y, sets[i + 1]);
-  }
-  std::array<BitPlane, kLeapBits> leap;
-  leap_planes(sets, leap, std::make_index_sequence<1 + kErosions.size()>());
-  expand(leap, edge, states, code);
+  alignas(64) thread_local std::array<BitWindow, 1 + kErosions.size()> sets;
+  alignas(64) thread_local BitPlanes planes;
+  fill_window(neighbourhood, &BrickStates::free, 0, kWindow, sets[0]);
+  erode_all(sets, std::make_index_sequence<kErosions.size()>());
+  fill_leap_planes(sets, planes, std::make_index_sequence<1 + kErosions.size()>());
+  fill_edge_planes(neighbourhood, sets[0], planes);
+  expand(planes, code);
 }
 
 }  // namespace nbvopt::detail::HWY_NAMESPACE
@@ -170,79 +244,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nbvopt::detail {
 
-HWY_EXPORT(compute_window_codes);
-
-namespace {
-
-BitWindow free_window(const BrickNeighbourhood& neighbourhood) {
-  BitWindow window;
-  for (int z = 0; z < kWindow; ++z) {
-    const int key_z = z + kBrickSize - kCodeReach;  // counted from the lower neighbour's start
-    for (int y = 0; y < kWindow; ++y) {
-      const int key_y = y + kBrickSize - kCodeReach;
-      const int row = (key_y & kBrickMask) | (key_z & kBrickMask) << kBrickBits;
-      const BrickStates* const* three =
-          &neighbourhood[3 * (key_y >> kBrickBits) + 9 * (key_z >> kBrickBits)];
-      window[z * kWindow + y] = std::uint64_t{three[0]->free[row]} >> (kBrickSize - kCodeReach) |
-                                std::uint64_t{three[1]->free[row]} << kCodeReach |
-                                std::uint64_t{three[2]->free[row]} << (kBrickSize + kCodeReach);
-    }
-  }
-  return window;
-}
-
-/// The brick with one voxel more all around: rows of 34 bits, y running fastest.
-constexpr int kRim = kBrickSize + 2;
-using RimRows = std::array<std::uint64_t, kRim * kRim>;
-
-/// Where a voxel is occupied, and where it is unknown.
-void fill_rim(const BrickNeighbourhood& neighbourhood, RimRows& occupied, RimRows& unknown) {
-  for (int z = 0; z < kRim; ++z) {
-    const int key_z = z + kBrickSize - 1;  // counted from the lower neighbour's start
-    for (int y = 0; y < kRim; ++y) {
-      const int key_y = y + kBrickSize - 1;
-      const int row = (key_y & kBrickMask) | (key_z & kBrickMask) << kBrickBits;
-      const BrickStates* const* three =
-          &neighbourhood[3 * (key_y >> kBrickBits) + 9 * (key_z >> kBrickBits)];
-      const auto joined = [&](const auto& bits_of) {
-        return std::uint64_t{bits_of(*three[0])} >> (kBrickSize - 1) |
-               std::uint64_t{bits_of(*three[1])} << 1 |
-               std::uint64_t{bits_of(*three[2]) & 1U} << (kBrickSize + 1);
-      };
-      occupied[z * kRim + y] = joined([&](const BrickStates& s) { return s.occupied[row]; });
-      unknown[z * kRim + y] =
-          joined([&](const BrickStates& s) { return ~(s.occupied[row] | s.free[row]); });
-    }
-  }
-}
-
-/// The voxels of which a face neighbour is set.
-std::uint32_t with_neighbour(const RimRows& rows, int i) {
-  const std::uint64_t any =
-      rows[i] << 1 | rows[i] >> 1 | rows[i - 1] | rows[i + 1] | rows[i - kRim] | rows[i + kRim];
-  return static_cast<std::uint32_t>(any >> 1);
-}
-
-EdgeRows edge_rows(const BrickNeighbourhood& neighbourhood) {
-  thread_local RimRows occupied, unknown;
-  fill_rim(neighbourhood, occupied, unknown);
-  const BrickStates& states = *neighbourhood[13];
-  EdgeRows edge;
-  for (int row = 0; row < kBrickRows; ++row) {
-    const int i = (row >> kBrickBits) * kRim + kRim + (row & kBrickMask) + 1;
-    const std::uint32_t beside_surface = with_neighbour(occupied, i);
-    const std::uint32_t frontier = states.free[row] & with_neighbour(unknown, i);
-    edge.first[row] = frontier | (beside_surface & ~(states.free[row] | states.occupied[row]));
-    edge.second[row] = frontier & beside_surface;
-  }
-  return edge;
-}
-
-}  // namespace
+HWY_EXPORT(compute_all_codes);
 
 void compute_codes(const BrickNeighbourhood& neighbourhood, std::uint8_t* code) {
-  HWY_DYNAMIC_DISPATCH(compute_window_codes)
-  (free_window(neighbourhood), edge_rows(neighbourhood), *neighbourhood[13], code);
+  HWY_DYNAMIC_DISPATCH(compute_all_codes)(neighbourhood, code);
 }
 
 }  // namespace nbvopt::detail
