@@ -55,6 +55,7 @@ RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
     hits.direction_z[i] = d.z();
     bounds.shortest_range_min_m = std::min(bounds.shortest_range_min_m, rays.range_min_m[i]);
     bounds.shortest_range_max_m = std::min(bounds.shortest_range_max_m, rays.range_max_m[i]);
+    bounds.longest_range_max_m = std::max(bounds.longest_range_max_m, rays.range_max_m[i]);
     bounds.far_min = bounds.far_min.cwiseMin(d * rays.range_max_m[i]);
     bounds.far_max = bounds.far_max.cwiseMax(d * rays.range_max_m[i]);
     bounds.near_min = bounds.near_min.cwiseMin(d * rays.range_min_m[i]);

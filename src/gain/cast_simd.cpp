@@ -120,6 +120,7 @@ RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
   }
   VecD shortest_near = hn::LoadU(dd, rays.range_min_m.data());
   VecD shortest_far = hn::LoadU(dd, rays.range_max_m.data());
+  VecD longest_far = shortest_far;
   for (std::size_t next = 0; next < n; next += lanes) {
     const std::size_t i = std::min(next, n - lanes);
     const VecD x = hn::LoadU(dd, &rays.x[i]);
@@ -129,6 +130,7 @@ RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
     const VecD range_max = hn::LoadU(dd, &rays.range_max_m[i]);
     shortest_near = hn::Min(shortest_near, range_min);
     shortest_far = hn::Min(shortest_far, range_max);
+    longest_far = hn::Max(longest_far, range_max);
     for (int a = 0; a < 3; ++a) {
       Along& by = along[a];
       const VecD d = hn::MulAdd(by.r0, x, hn::MulAdd(by.r1, y, hn::Mul(by.r2, z)));
@@ -150,6 +152,7 @@ RayBounds rotate_and_bound(const RayBundle& rays, RayHits& hits) {
   }
   bounds.shortest_range_min_m = hn::GetLane(hn::MinOfLanes(dd, shortest_near));
   bounds.shortest_range_max_m = hn::GetLane(hn::MinOfLanes(dd, shortest_far));
+  bounds.longest_range_max_m = hn::GetLane(hn::MaxOfLanes(dd, longest_far));
   return bounds;
 }
 

@@ -36,32 +36,6 @@ std::pair<Eigen::Vector3i, Eigen::Vector3i> keys_of(const Eigen::Vector3d& origi
   return {low.cast<int>(), high.cast<int>()};
 }
 
-/// Gathers the bricks of the box, which are read from the map where they are not ready.
-void fill_local_bricks(const VoxelGrid& grid, const BrickBox& box, detail::LocalBricks& local) {
-  detail::check_size(box);
-  local.min = box.min;
-  local.size_x = box.max.x - box.min.x + 1;
-  local.size_y = box.max.y - box.min.y + 1;
-  local.size_z = box.max.z - box.min.z + 1;
-  local.brick.reserve(static_cast<std::size_t>(box.size()));
-  local.code.reserve(static_cast<std::size_t>(box.size()));
-  const auto collect = [&] {
-    local.brick.clear();
-    local.code.clear();
-    bool complete = true;
-    box.for_each([&](BrickKey key) {
-      const detail::Brick* brick = detail::MapAccess::table(grid).ready_brick(key);
-      complete = complete && brick != nullptr;
-      local.brick.push_back(brick);
-      local.code.push_back(brick != nullptr ? brick->code.data() : nullptr);
-    });
-    return complete;
-  };
-  if (collect()) return;
-  detail::MapAccess::table(grid).make_ready(box);
-  collect();
-}
-
 VoxelKey clamped_key(const Eigen::Vector3i& key) {
   const Eigen::Vector3i k = key.cwiseMax(0).cwiseMin(65535);
   return {static_cast<std::uint16_t>(k.x()), static_cast<std::uint16_t>(k.y()),
@@ -100,6 +74,35 @@ std::vector<SimdLevel> supported_simd_levels() {
 }
 
 namespace detail {
+namespace {
+
+/// Gathers the bricks of the box; those that are not ready are made so where a ray may come into
+/// them, and elsewhere nothing counts as known.
+template <class IsInReach>
+void fill_local_bricks(const BrickTable& table, const BrickBox& box, const IsInReach& is_in_reach,
+                       LocalBricks& local) {
+  check_size(box);
+  local.min = box.min;
+  local.size_x = box.max.x - box.min.x + 1;
+  local.size_y = box.max.y - box.min.y + 1;
+  local.size_z = box.max.z - box.min.z + 1;
+  local.brick.reserve(static_cast<std::size_t>(box.size()));
+  std::vector<BrickKey> missing;
+  box.for_each([&](BrickKey key) {
+    const Brick* brick = table.ready_brick(key);
+    if (brick == nullptr) {
+      if (is_in_reach(key)) missing.push_back(key);
+      brick = unknown_brick().get();
+    }
+    local.brick.push_back(brick);
+  });
+  table.make_ready(missing);
+  for (const BrickKey& key : missing) local.brick[local.place_of(key)] = table.ready_brick(key);
+  local.code.reserve(local.brick.size());
+  for (const Brick* brick : local.brick) local.code.push_back(brick->code.data());
+}
+
+}  // namespace
 
 RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_uncertainty,
                   const RayBounds& bounds) {
@@ -118,10 +121,17 @@ RayWalk make_walk(const VoxelGrid& grid, const RayBundle& rays, double occupied_
 
   const auto [far_low, far_high] =
       keys_of(origin_lattice, bounds.far_min, bounds.far_max, walk.resolution_m);
-  fill_local_bricks(grid, {brick_at(far_low), brick_at(far_high)}, walk.bricks);
+  const auto [near_low, near_high] =
+      keys_of(origin_lattice, bounds.near_min, bounds.near_max, walk.resolution_m);
+  const BrickBox near{brick_at(near_low), brick_at(near_high)};
+  // Voxels; one more for rounding.
+  const double longest = 1.0 + bounds.longest_range_max_m / walk.resolution_m;
+  const auto is_in_reach = [&](BrickKey key) {
+    return lattice_box(key).exteriorDistance(origin_lattice) <= longest || near.contains(key);
+  };
+  fill_local_bricks(MapAccess::table(grid), {brick_at(far_low), brick_at(far_high)}, is_in_reach,
+                    walk.bricks);
   if (rays.near_blocking) {
-    const auto [near_low, near_high] =
-        keys_of(origin_lattice, bounds.near_min, bounds.near_max, walk.resolution_m);
     walk.walk_near = grid.any_occupied({clamped_key(near_low), clamped_key(near_high)});
   }
   return walk;

@@ -28,7 +28,7 @@ struct LocalBricks {
 };
 
 /// The boxes that hold all rays, relative to the origin, metres, map axes, and their shortest
-/// ranges.
+/// and longest ranges.
 struct RayBounds {
   Eigen::Vector3d far_min = Eigen::Vector3d::Zero();  ///< from the origin to range_max
   Eigen::Vector3d far_max = Eigen::Vector3d::Zero();
@@ -36,6 +36,7 @@ struct RayBounds {
   Eigen::Vector3d near_max = Eigen::Vector3d::Zero();
   double shortest_range_min_m = 0.0;
   double shortest_range_max_m = 0.0;
+  double longest_range_max_m = 0.0;
 };
 
 /// A bundle ready to be walked.

@@ -18,15 +18,19 @@ class BrickFiller {
   void fill(const UncertaintyOcTreeNode& node, int x, int y, int z, int size) {
     if (!tree_.nodeHasChildren(&node)) {
       fill_leaf(node, x, y, z, size);
-      return;
-    }
-    if (size == 2) {
+    } else if (size == 2) {
       fill_voxels(node, x, y, z);
-      return;
+    } else {
+      fill_children(node, x, y, z, size, kAllOctants);
     }
+  }
+
+  /// The same for some octants of a node that is no leaf.
+  void fill_children(const UncertaintyOcTreeNode& node, int x, int y, int z, int size,
+                     Octants octants) {
     const int half = size / 2;
     for (int child = 0; child < 8; ++child) {
-      if (!tree_.nodeChildExists(&node, child)) continue;
+      if ((octants >> child & 1) == 0 || !tree_.nodeChildExists(&node, child)) continue;
       fill(*tree_.getNodeChild(&node, child), x + (child & 1 ? half : 0),
            y + (child & 2 ? half : 0), z + (child & 4 ? half : 0), half);
     }
@@ -140,7 +144,8 @@ std::vector<BrickKey> known_blocks(const UncertaintyOcTree& tree) {
   return blocks;
 }
 
-std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, BrickKey brick) {
+std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, BrickKey brick,
+                                              Octants octants) {
   const UncertaintyOcTreeNode* node = tree.getRoot();
   for (int bit = kBrickDepth - 1; bit >= 0 && node != nullptr; --bit) {
     if (!tree.nodeHasChildren(node)) break;  // a pruned leaf that covers the brick
@@ -149,7 +154,11 @@ std::shared_ptr<const BrickStates> read_brick(const UncertaintyOcTree& tree, Bri
   }
   if (node == nullptr) return nullptr;
   BrickFiller filler(tree);
-  filler.fill(*node, 0, 0, 0, kBrickSize);
+  if (tree.nodeHasChildren(node)) {
+    filler.fill_children(*node, 0, 0, 0, kBrickSize, octants);
+  } else {
+    filler.fill(*node, 0, 0, 0, kBrickSize);
+  }
   return filler.finish();
 }
 

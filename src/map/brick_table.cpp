@@ -51,14 +51,32 @@ void for_each_in_parallel(Items& items, const Run& run) {
   });
 }
 
+/// A brick and its 26 neighbours.
+BrickBox box_around(BrickKey key) {
+  return {{key.x - 1, key.y - 1, key.z - 1}, {key.x + 1, key.y + 1, key.z + 1}};
+}
+
+/// The octants of `near`, a brick or its neighbour, into which the codes of `key` reach.
+Octants octants_towards(BrickKey key, BrickKey near) {
+  static_assert(kCodeReach == kBrickSize / 2);
+  // By axis, the octants of the lower half.
+  constexpr std::array<unsigned, 3> kLower{0x55, 0x33, 0x0F};
+  unsigned octants = kAllOctants;
+  const auto keep = [&](unsigned lower, int step) {
+    if (step != 0) octants &= step > 0 ? lower : ~lower;
+  };
+  keep(kLower[0], near.x - key.x);
+  keep(kLower[1], near.y - key.y);
+  keep(kLower[2], near.z - key.z);
+  return static_cast<Octants>(octants);
+}
+
 /// The neighbourhood of a brick from a lookup of states.
 template <typename StatesOf>
 BrickNeighbourhood neighbourhood_of(BrickKey key, StatesOf&& states_of) {
   BrickNeighbourhood neighbourhood;
   std::size_t i = 0;
-  BrickBox{{-1, -1, -1}, {1, 1, 1}}.for_each([&](BrickKey d) {
-    neighbourhood[i++] = states_of(BrickKey{key.x + d.x, key.y + d.y, key.z + d.z});
-  });
+  box_around(key).for_each([&](BrickKey near) { neighbourhood[i++] = states_of(near); });
   return neighbourhood;
 }
 
@@ -96,6 +114,14 @@ void check_size(const BrickBox& box) {
                      " bricks of 32 voxels a side, more than " + format_number(kMaxBoxBricks) +
                      ": lower sensor.range_max_m or take a coarser map");
   }
+}
+
+std::vector<BrickKey> brick_keys_of(const BrickBox& box) {
+  check_size(box);
+  std::vector<BrickKey> keys;
+  keys.reserve(static_cast<std::size_t>(box.size()));
+  box.for_each([&](BrickKey key) { keys.push_back(key); });
+  return keys;
 }
 
 BrickTable::Block* BrickTable::unknown_block() {
@@ -136,34 +162,40 @@ void BrickTable::own(std::shared_ptr<Block> block) const {
 
 const std::shared_ptr<const BrickStates>& BrickTable::states_of(BrickKey key) const {
   const Brick* brick = ready_brick(key);
-  return brick != nullptr ? brick->states : states_.at(packed(key));
+  return brick != nullptr ? brick->states : states_.at(packed(key)).states;
 }
 
-void BrickTable::make_ready(const BrickBox& box) const {
-  check_size(box);
+void BrickTable::make_ready(const std::vector<BrickKey>& wanted) const {
   if (is_whole()) return;
-  const auto missing_in = [this](const BrickBox& in) {
-    std::vector<BrickKey> missing;
-    in.for_each([&](BrickKey key) {
-      if (ready_brick(key) == nullptr) missing.push_back(key);
-    });
-    return missing;
-  };
-  if (missing_in(box).empty()) return;
+  const auto is_missing = [this](BrickKey key) { return ready_brick(key) == nullptr; };
+  if (std::ranges::none_of(wanted, is_missing)) return;
   const std::scoped_lock lock(mutex_);
   if (is_whole()) return;
-  const std::vector<BrickKey> missing = missing_in(box);
+  std::vector<BrickKey> missing;
+  std::ranges::copy_if(wanted, std::back_inserter(missing), is_missing);
 
   // Codes need the neighbours' states too.
-  std::vector<std::pair<BrickKey, std::shared_ptr<const BrickStates>>> read;
-  for (const BrickKey& key : missing_in({{box.min.x - 1, box.min.y - 1, box.min.z - 1},
-                                         {box.max.x + 1, box.max.y + 1, box.max.z + 1}})) {
-    if (!states_.contains(packed(key))) read.emplace_back(key, unknown_brick()->states);
+  std::unordered_map<std::uint64_t, std::pair<BrickKey, Octants>> needed;
+  for (const BrickKey& key : missing) {
+    box_around(key).for_each([&](BrickKey near) {
+      if (is_missing(near)) {
+        auto& [brick, octants] = needed[packed(near)];
+        brick = near;
+        octants |= octants_towards(key, near);
+      }
+    });
   }
-  for_each_in_parallel(read, [&tree = *tree_.load()](auto& brick) {
-    if (auto states = read_brick(tree, brick.first)) brick.second = std::move(states);
+  std::vector<std::pair<BrickKey, ReadStates*>> to_read;
+  for (const auto& [place, need] : needed) {
+    ReadStates& read = states_[place];
+    if ((need.second & ~read.octants) == 0) continue;
+    read = {unknown_brick()->states, static_cast<Octants>(read.octants | need.second)};
+    to_read.emplace_back(need.first, &read);
+  }
+  for_each_in_parallel(to_read, [&tree = *tree_.load()](auto& brick) {
+    ReadStates& read = *brick.second;
+    if (auto states = read_brick(tree, brick.first, read.octants)) read.states = std::move(states);
   });
-  for (auto& [key, states] : read) states_.emplace(packed(key), std::move(states));
 
   std::vector<std::pair<BrickKey, std::shared_ptr<const Brick>>> bricks;
   for (const BrickKey& key : missing) bricks.emplace_back(key, nullptr);
@@ -187,8 +219,8 @@ void BrickTable::read_all() {
   blocks.for_each([this](BrickKey block) {
     const BrickKey first{block.x << kBlockBits, block.y << kBlockBits, block.z << kBlockBits};
     if (block_of(first) == unknown_block_) return;
-    make_ready(
-        {first, {first.x + kBlockSize - 1, first.y + kBlockSize - 1, first.z + kBlockSize - 1}});
+    make_ready(brick_keys_of(
+        {first, {first.x + kBlockSize - 1, first.y + kBlockSize - 1, first.z + kBlockSize - 1}}));
   });
   const std::scoped_lock lock(mutex_);
   states_.clear();

@@ -4,6 +4,7 @@
 // not exist, so a stray voxel far away costs one block and no more.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -27,6 +28,11 @@ struct BrickBox {
     return (max.x - min.x + 1.0) * (max.y - min.y + 1.0) * (max.z - min.z + 1.0);
   }
 
+  bool contains(BrickKey key) const {
+    return key.x >= min.x && key.x <= max.x && key.y >= min.y && key.y <= max.y && key.z >= min.z &&
+           key.z <= max.z;
+  }
+
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (int z = min.z; z <= max.z; ++z) {
@@ -39,6 +45,15 @@ struct BrickBox {
 
 /// Throws InputError when the box is absurdly large.
 void check_size(const BrickBox& box);
+
+/// The bricks of a box. Throws InputError when it is absurdly large.
+std::vector<BrickKey> brick_keys_of(const BrickBox& box);
+
+/// What a brick spans, in lattice coordinates.
+inline Eigen::AlignedBox3d lattice_box(BrickKey key) {
+  const Eigen::Vector3d min = kBrickSize * Eigen::Vector3d(key.x, key.y, key.z);
+  return {min, min + Eigen::Vector3d::Constant(kBrickSize)};
+}
 
 inline BrickBox bricks_of(const KeyBox& box) { return {brick_of(box.min), brick_of(box.max)}; }
 
@@ -54,8 +69,8 @@ class BrickTable {
   void read_all();
   bool is_whole() const { return tree_ == nullptr; }
 
-  /// Makes the bricks of the box ready. Thread-safe. Throws InputError when the box is absurd.
-  void make_ready(const BrickBox& box) const;
+  /// Makes bricks ready. Thread-safe.
+  void make_ready(const std::vector<BrickKey>& wanted) const;
 
   /// A brick that was made ready, null if it was not. Lock-free.
   const Brick* ready_brick(BrickKey key) const {
@@ -127,8 +142,13 @@ class BrickTable {
   mutable std::vector<std::shared_ptr<Block>> owned_blocks_;
 
   mutable std::mutex mutex_;
-  /// States read from the tree, ahead of the codes, which need the neighbours' states too.
-  mutable std::unordered_map<std::uint64_t, std::shared_ptr<const BrickStates>> states_;
+  /// States read from the tree, ahead of the codes, which need the neighbours' states too, as far
+  /// as codes reach.
+  struct ReadStates {
+    std::shared_ptr<const BrickStates> states;
+    Octants octants = 0;  ///< that were read
+  };
+  mutable std::unordered_map<std::uint64_t, ReadStates> states_;
 };
 
 }  // namespace nbvopt::detail

@@ -1,12 +1,34 @@
 #include "nbvopt/map/voxel_grid.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "map/brick_table.hpp"
 #include "map/map_access.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
+namespace {
+
+/// The bricks that touch the surroundings.
+std::vector<detail::BrickKey> bricks_of(const Lattice& lattice, const Surroundings& near) {
+  const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(near.radius_m);
+  const detail::BrickBox box = detail::bricks_of(
+      {lattice.key(near.box_map_m.min() - reach_m), lattice.key(near.box_map_m.max() + reach_m)});
+  detail::check_size(box);
+  const Eigen::AlignedBox3d box_lattice(lattice.to_lattice(near.box_map_m.min()),
+                                        lattice.to_lattice(near.box_map_m.max()));
+  std::vector<detail::BrickKey> bricks;
+  box.for_each([&](detail::BrickKey key) {
+    if (box_lattice.exteriorDistance(detail::lattice_box(key)) * lattice.resolution_m() <=
+        near.radius_m) {
+      bricks.push_back(key);
+    }
+  });
+  return bricks;
+}
+
+}  // namespace
 
 using detail::BrickTable;
 
@@ -48,7 +70,13 @@ std::shared_ptr<const VoxelGrid> VoxelGrid::updated(std::span<const VoxelChange>
   return grid;
 }
 
-void VoxelGrid::make_ready(const KeyBox& box) const { table_->make_ready(detail::bricks_of(box)); }
+void VoxelGrid::make_ready(const KeyBox& box) const {
+  table_->make_ready(detail::brick_keys_of(detail::bricks_of(box)));
+}
+
+void VoxelGrid::make_ready(const Surroundings& near) const {
+  table_->make_ready(bricks_of(lattice_, near));
+}
 
 void VoxelGrid::read_all() const { table_->read_all(); }
 
@@ -85,12 +113,10 @@ bool VoxelGrid::any_occupied(const KeyBox& box) const {
   return found;
 }
 
-bool VoxelGrid::any_known(const KeyBox& box) const {
-  bool found = false;
-  detail::bricks_of(box).for_each([&](detail::BrickKey brick) {
-    found = found || !table_->ready_brick(brick)->states->is_all_unknown();
+bool VoxelGrid::any_known(const Surroundings& near) const {
+  return std::ranges::any_of(bricks_of(lattice_, near), [this](detail::BrickKey brick) {
+    return !table_->ready_brick(brick)->states->is_all_unknown();
   });
-  return found;
 }
 
 std::size_t VoxelGrid::memory_bytes() const { return table_->memory_bytes(); }

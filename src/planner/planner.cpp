@@ -148,7 +148,7 @@ PlanResult Planner::plan(const PlanRequest& asked, const Solver& solver) const {
 
   const auto begin = StopRule::Clock::now();
   const MovingMast& mast = reach.mast;
-  warn_of_map(reach.voxels, state_at_camera(*grid_, mast, request.joints), result.warnings);
+  warn_of_map(reach.sight, state_at_camera(*grid_, mast, request.joints), result.warnings);
   result.box = box_free_of_obstacles(reach, *grid_);
   const auto trace = request.record_trace ? std::make_unique<SearchTrace>(begin) : nullptr;
   const PanoramaObjective surrogate(grid_, sensor_, mast, result.box,
@@ -213,7 +213,7 @@ PlanRequest Planner::usable(const PlanRequest& asked, std::vector<std::string>& 
 
 Reach Planner::ready_reach(const PlanRequest& request) const {
   const Reach reach = reach_of(request, mast_, sensor_, grid_->lattice());
-  grid_->make_ready(reach.voxels);
+  grid_->make_ready(reach.sight);
   return reach;
 }
 
@@ -250,10 +250,10 @@ void Planner::choose(const MovingMast& mast, const ViewObjective& objective,
   }
 }
 
-void Planner::warn_of_map(const KeyBox& reachable, VoxelState at_camera,
+void Planner::warn_of_map(const Surroundings& sight, VoxelState at_camera,
                           std::vector<std::string>& warnings) const {
   if (!grid_->has_occupied()) warnings.emplace_back("the map has no occupied voxel");
-  if (!grid_->any_known(reachable)) {
+  if (!grid_->any_known(sight)) {
     warnings.emplace_back("nothing in reach of the camera is mapped: the base is outside the map");
   } else if (at_camera == VoxelState::unknown) {
     warnings.emplace_back(

@@ -53,7 +53,7 @@ class Planner {
   /// Fills the answer from what the solver found.
   void choose(const MovingMast& mast, const ViewObjective& objective, const SolveResult& solved,
               PlanResult& result) const;
-  void warn_of_map(const KeyBox& reachable, VoxelState at_camera,
+  void warn_of_map(const Surroundings& sight, VoxelState at_camera,
                    std::vector<std::string>& warnings) const;
 
   Mast mast_;

@@ -23,8 +23,8 @@ void check_drive(double drive_m, double turn_rad) {
   check(turn_rad, kLongestTurn_rad, "turn", " rad");
 }
 
-KeyBox reachable_voxels(const MovingMast& mast, const JointBox& box, const SensorOptions& sensor,
-                        const Lattice& lattice) {
+Surroundings sight_of(const MovingMast& mast, const JointBox& box, const SensorOptions& sensor,
+                      const Lattice& lattice) {
   const double longest_s = mast.longest_arrival_time_s(box);
   const double drive_m = mast.base_twist().speed_m_s() * longest_s;
   check_drive(drive_m, std::abs(mast.base_twist().wz_rad_s) * longest_s);
@@ -41,8 +41,7 @@ KeyBox reachable_voxels(const MovingMast& mast, const JointBox& box, const Senso
       mast_tops.extend(T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
     }
   }
-  return {lattice.key(mast_tops.min() - Eigen::Vector3d::Constant(radius_m)),
-          lattice.key(mast_tops.max() + Eigen::Vector3d::Constant(radius_m))};
+  return {mast_tops, radius_m};
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ Reach reach_of(const PlanRequest& request, const Mast& mast, const SensorOptions
                const Lattice& lattice) {
   const MovingMast moving = moving_mast(request, mast);
   const JointBox box = mast.reachable_box(request.joints, request.motion_time_s);
-  return {moving, box, reachable_voxels(moving, box, sensor, lattice)};
+  return {moving, box, sight_of(moving, box, sensor, lattice)};
 }
 
 JointBox box_free_of_obstacles(const Reach& reach, const VoxelGrid& grid) {

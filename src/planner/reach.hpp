@@ -11,8 +11,8 @@ namespace nbvopt {
 /// Made once a plan.
 struct Reach {
   MovingMast mast;
-  JointBox joints;  ///< Algorithm 2's, whatever stands in the way
-  KeyBox voxels;    ///< every voxel that a view from inside the box can touch
+  JointBox joints;     ///< Algorithm 2's, whatever stands in the way
+  Surroundings sight;  ///< of all that a view from inside the box can touch
 };
 
 /// The reach of a request whose joints are within their limits. Throws InputError when the base

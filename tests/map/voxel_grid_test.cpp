@@ -144,8 +144,48 @@ TEST(VoxelGrid, IsUnknownWhereTheMapIsEmpty) {
     EXPECT_FALSE(grid->has_occupied());
     EXPECT_FALSE(grid->carries_uncertainty());
     EXPECT_FALSE(grid->any_occupied(kMargin));
-    EXPECT_FALSE(grid->any_known(kMargin));
+    EXPECT_FALSE(
+        grid->any_known({{Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Ones()}, 0.5}));
   }
+}
+
+TEST(VoxelGrid, ReadsTheSurroundingsOfABox) {
+  std::mt19937_64 random(7);
+  const UncertaintyMap map = odd_map(random);
+  const auto whole = VoxelGrid::whole(map);
+  const Lattice& lattice = map.lattice();
+  const auto brick_keys = detail::brick_keys_of(detail::bricks_of(kMargin));
+  int unread = 0;
+  int unknown = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto lazy = VoxelGrid::lazy(map);
+    const Eigen::Vector3d from{uniform(random, -8, 6), uniform(random, -8, 6),
+                               uniform(random, -8, 6)};
+    const Surroundings near{{from, from + Eigen::Vector3d(uniform(random, 0, 2), 0.0, 1.0)},
+                            uniform(random, 0, 3)};
+    lazy->make_ready(near);
+    bool any_known = false;
+    for (const detail::BrickKey& key : brick_keys) {
+      const VoxelKey first = key_at(key.x * 32, key.y * 32, key.z * 32);
+      const Eigen::Vector3d corner = lattice.centre_m(first).array() - 0.5 * lattice.resolution_m();
+      // The nearest points of two boxes, axis by axis.
+      const Eigen::Vector3d gap =
+          (near.box_map_m.min().array() - corner.array() - 32 * lattice.resolution_m())
+              .max(corner.array() - near.box_map_m.max().array())
+              .max(0.0);
+      if (gap.norm() > near.radius_m) {
+        unread += detail::MapAccess::table(*lazy).ready_brick(key) == nullptr;
+        continue;
+      }
+      expect_same_bricks(*lazy, *whole, {first, first});
+      any_known |= !detail::MapAccess::table(*whole).ready_brick(key)->states->is_all_unknown();
+    }
+    EXPECT_EQ(whole->any_known(near), any_known);
+    EXPECT_EQ(lazy->any_known(near), any_known);
+    unknown += !any_known;
+  }
+  EXPECT_GT(unread, 1000);
+  EXPECT_GT(unknown, 0);
 }
 
 TEST(VoxelGrid, KnowsWhatABoxHolds) {
@@ -156,12 +196,7 @@ TEST(VoxelGrid, KnowsWhatABoxHolds) {
     occupied_keys.push_back(key_from_origin(
         uniform_int(random, -64, 63), uniform_int(random, -64, 63), uniform_int(random, -64, 63)));
   }
-  std::vector<VoxelKey> known_keys = occupied_keys;
   for (const VoxelKey key : occupied_keys) map.set(key, occupied(0.5F));
-  for (int i = 0; i < 10; ++i) {
-    known_keys.push_back(key_from_origin(uniform_int(random, 64, 127), 0, 0));
-    map.set(known_keys.back(), kFree);
-  }
   map.finish_writing();
   const auto grid = VoxelGrid::whole(map);
 
@@ -175,12 +210,6 @@ TEST(VoxelGrid, KnowsWhatABoxHolds) {
                                           [&](VoxelKey key) { return in_box(key, box); });
     EXPECT_EQ(grid->any_occupied(box), any_occupied);
     holding += any_occupied;
-    const auto down = [](int k) { return k & ~detail::kBrickMask; };
-    const auto up = [](int k) { return k | detail::kBrickMask; };
-    const KeyBox bricks{key_at(down(box.min.x), down(box.min.y), down(box.min.z)),
-                        key_at(up(box.max.x), up(box.max.y), up(box.max.z))};
-    EXPECT_EQ(grid->any_known(box), std::any_of(known_keys.begin(), known_keys.end(),
-                                                [&](VoxelKey k) { return in_box(k, bricks); }));
   };
   for (int i = 0; i < 2000; ++i) {
     const auto from_to = [&] {

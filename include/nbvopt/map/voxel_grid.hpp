@@ -5,6 +5,7 @@
 // the map the first time that a box which it touches is asked for.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,6 +19,16 @@ namespace detail {
 class BrickTable;
 struct MapAccess;
 }  // namespace detail
+
+/// All that lies within a distance of a box.
+struct Surroundings {
+  Eigen::AlignedBox3d box_map_m;
+  double radius_m = 0.0;
+
+  double distance_m(const Eigen::Vector3d& p_map_m) const {
+    return box_map_m.exteriorDistance(p_map_m);
+  }
+};
 
 class VoxelGrid {
  public:
@@ -45,9 +56,11 @@ class VoxelGrid {
   /// Whether the map had any occupied voxel, or a scan has made one since.
   bool has_occupied() const { return has_occupied_; }
 
-  /// Makes every brick that touches the box ready. Thread-safe; cheap when they are. Rays may be
-  /// cast, and voxels looked up, only inside boxes that were made ready.
+  /// Makes every brick that touches the box ready. Thread-safe; cheap when they are. Voxels may be
+  /// looked up only where they were made ready.
   void make_ready(const KeyBox& box) const;
+  /// The same for every brick that touches the surroundings of a box.
+  void make_ready(const Surroundings& near) const;
 
   /// Makes every brick ready and lets go of the map, which may then change or go: the grid is as
   /// whole() makes it. Thread-safe.
@@ -61,8 +74,8 @@ class VoxelGrid {
   /// Whether the box holds an occupied voxel.
   bool any_occupied(const KeyBox& box) const;
 
-  /// Whether anything is known in a brick that touches the box.
-  bool any_known(const KeyBox& box) const;
+  /// Whether anything is known in a brick that touches the surroundings of a box.
+  bool any_known(const Surroundings& near) const;
 
   /// What the bricks take, bytes; bricks shared with other versions included.
   std::size_t memory_bytes() const;
