@@ -39,6 +39,16 @@ std::size_t count_missing(const std::vector<UnitResult>& results) {
       results, false, [](const UnitResult& result) { return result.is_there(); }));
 }
 
+/// Those whose worlds are not there.
+std::vector<const ExperimentEnvironment*> tell_missing(const ExperimentOptions& experiment) {
+  const auto missing = missing_environments(experiment.environments, experiment.worlds_folder);
+  for (const ExperimentEnvironment* environment : missing) {
+    print_message(std::string(environment->name) + " is left out: there is no " +
+                  (experiment.worlds_folder / environment->world_file).string());
+  }
+  return missing;
+}
+
 void print_commands(std::vector<Unit> units, const ReproductionFolder& folder) {
   std::string text;
   for (const Unit& unit : units) text += command_line(unit, folder) + '\n';
@@ -79,12 +89,13 @@ void reproduce(ReproduceOptions options) {
                               .cache_folder = user_cache_folder()};
   const ReproductionFolder& folder = options.experiment.folder;
   std::vector<Unit> units = experiment_units(options.experiment);
+  if (!options.dry_run) create_folder(folder.units());  // it is soon known whether that can be done
+  const auto missing = tell_missing(options.experiment);
   if (options.dry_run) return print_commands(std::move(units), folder);
-  create_folder(folder.units());  // first: it is soon known whether that can be done
   read_worlds(units);
   const std::size_t failed = options.tables_only ? 0 : run_units(units, options);
   const std::vector<UnitResult> results = read_results(units, folder);
-  const ReproductionTable table = make_table(units, results);
+  const ReproductionTable table = make_table(units, results, missing);
   write_tables(table, folder.root);
   write_file_atomically(folder.root / "report.html", to_html(table, units, results));
   print_answer(to_markdown(table));
@@ -125,9 +136,9 @@ void set_up_reproduce(CLI::App& app) {
                                          "what is done so far, and the tables; created if need be");
   out->type_name("DIR")->required();
   command
-      ->add_option(
-          "--environments", experiment.environments,
-          "only these, with commas: simple_house, apartment, cafe, warehouse, willowgarage")
+      ->add_option("--environments", experiment.environments,
+                   "only these, with commas: simple_house, apartment, bookstore, cafe, warehouse, "
+                   "willowgarage [all whose worlds are there]")
       ->type_name("NAME")
       ->delimiter(',');
   command
@@ -155,7 +166,10 @@ void set_up_reproduce(CLI::App& app) {
   add_whole_number(*command, "--jobs", options->jobs, 0, 1024,
                    "processes at a time; 0: one a core. Tables do not depend on it");
   add_whole_number(*command, "--seed", experiment.seed, 0, std::numeric_limits<std::int64_t>::max(),
-                   "of explorations and searches");
+                   "of explorations, searches and people");
+  add_whole_number(*command, "--seeds", experiment.seeds, 1, 1000,
+                   "with so many from each start: --seed and those after it");
+  command->add_flag("!--without-people", experiment.has_people, "leave out the worlds' actors");
   add_number(*command, "--duration-max", experiment.duration_max_s, "SECONDS",
              "end explorations after this, for short trials [3600; 1615 in willowgarage; in 3D as "
              "long as the paper's]");

@@ -114,7 +114,7 @@ std::string to_html(const ReproductionTable& table, std::span<const Unit> units,
   std::string html = std::string(kHead) + "<h1>The paper's experiment, reproduced</h1>\n";
   for (const std::string& note : hole_notes(table)) html += "<p>" + html_escaped(note) + "</p>\n";
   html +=
-      "<h2>Information over time</h2>\n<p>Lines are means over the starts, bands reach from the "
+      "<h2>Information over time</h2>\n<p>Lines are means over the drives, bands reach from the "
       "least to the most of them.</p>\n";
   for (const ExperimentEnvironment& environment : experiment_environments()) {
     std::string section;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -11,14 +12,14 @@
 namespace nbvopt {
 namespace {
 
-using Start = std::pair<const ExperimentEnvironment*, std::size_t>;
+using Origin = std::tuple<const ExperimentEnvironment*, std::size_t, std::uint64_t>;
 
 /// The information that a test's episodes end with.
 struct Test {
   std::string name;
   double motion_time_s = 0.0;
   bool is_auto = false;
-  std::map<Start, double> information = {};
+  std::map<Origin, double> information = {};
 };
 
 std::vector<Test> tests_of(std::span<const Unit> units, std::span<const UnitResult> results) {
@@ -33,17 +34,17 @@ std::vector<Test> tests_of(std::span<const Unit> units, std::span<const UnitResu
     if (test == tests.end()) {
       test = tests.insert(tests.end(), {name, setting->motion_time_s, setting->mode == "auto"});
     }
-    test->information[{units[i].environment, units[i].start}] =
+    test->information[{units[i].environment, units[i].start, units[i].simulation.seed}] =
         results[i].episode->summary.information;
   }
   return tests;
 }
 
-/// How much more than the other a test knows at the end, from each start that both have.
+/// How much more than the other a test knows at the end, for each start and seed that both have.
 std::vector<double> percentages(const Test& test, const Test& other) {
   std::vector<double> percents;
-  for (const auto& [start, information] : test.information) {
-    const auto found = other.information.find(start);
+  for (const auto& [origin, information] : test.information) {
+    const auto found = other.information.find(origin);
     if (found == other.information.end() || !(found->second > 0.0)) continue;
     percents.push_back(100.0 * (information / found->second - 1.0));
   }

@@ -10,8 +10,8 @@
 
 namespace nbvopt {
 
-/// Two tests of one t, over all starts from which both have run. Percentages are of the other's
-/// information (Eq. 11) at the end.
+/// Two tests of one t, over all starts and seeds with which both have run. Percentages are of the
+/// other's information (Eq. 11) at the end.
 struct PairedComparison {
   std::string test;
   std::string other;
@@ -26,7 +26,7 @@ struct PairedComparison {
 };
 
 /// What looks by `auto`, in the plane for each gain and t, against every other test of that t; none
-/// where no start has both.
+/// where no drives have both.
 std::vector<PairedComparison> compare_tests(std::span<const Unit> units,
                                             std::span<const UnitResult> results);
 

@@ -2,49 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <system_error>
 
 #include "core/number.hpp"
-#include "nbvopt/core/error.hpp"
 #include "reproduction/paper_tables.hpp"
 
 namespace nbvopt {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kNoHurry_s = 3600.0;  ///< all that is reachable is seen before
-
-std::vector<const ExperimentEnvironment*> chosen_environments(
-    const std::vector<std::string>& names) {
-  std::string known;
-  for (const ExperimentEnvironment& environment : experiment_environments()) {
-    known += (known.empty() ? "" : ", ") + std::string(environment.name);
-  }
-  for (const std::string& name : names) {
-    const auto all = experiment_environments();
-    if (std::ranges::find(all, name, &ExperimentEnvironment::name) == all.end()) {
-      throw UsageError("environment '" + name + "' is none of " + known);
-    }
-  }
-  std::vector<const ExperimentEnvironment*> chosen;
-  for (const ExperimentEnvironment& environment : experiment_environments()) {
-    if (names.empty() || std::ranges::find(names, environment.name) != names.end()) {
-      chosen.push_back(&environment);
-    }
-  }
-  return chosen;
-}
-
-fs::path world_of(const ExperimentEnvironment& environment, const fs::path& worlds_folder) {
-  fs::path world = worlds_folder / environment.world_file;
-  std::error_code ignored;
-  if (!fs::is_regular_file(world, ignored)) {
-    throw InputError(world.string() + ": there is no such world; the environment '" +
-                     std::string(environment.name) + "' can be left out");
-  }
-  return world;
-}
+constexpr std::string_view kDriveEnding = "trajectory";
 
 double duration_max_s(const ExperimentEnvironment& environment, ExplorerKind explorer) {
   if (!ends_with_papers(explorer)) return environment.duration_max_s;
@@ -53,46 +18,74 @@ double duration_max_s(const ExperimentEnvironment& environment, ExplorerKind exp
       ->spatial.duration_s;
 }
 
-std::string start_name(const Unit& unit) {
-  return std::string(unit.environment->name) + '-' + std::to_string(unit.start) + '-';
+/// Where drives begin, and by which seed they are made.
+struct Departure {
+  const ExperimentEnvironment* environment;
+  WorldSource world;
+  std::size_t start;  ///< counts from 1
+  StartPose pose;
+  std::uint64_t seed;
+};
+
+std::vector<Departure> departures(const ExperimentOptions& options) {
+  std::vector<Departure> all;
+  for (const ExperimentEnvironment* environment :
+       chosen_environments(options.environments, options.worlds_folder)) {
+    const WorldSource world{.file = options.worlds_folder / environment->world_file,
+                            .options = options.world,
+                            .has_people = options.has_people,
+                            .digest = {}};
+    const std::vector<StartPose> starts = starts_in(*environment, world);
+    const auto count = std::min(starts.size(), static_cast<std::size_t>(options.starts));
+    for (std::size_t start = 1; start <= count; ++start) {
+      for (std::int64_t i = 0; i < options.seeds; ++i) {
+        const auto seed = static_cast<std::uint64_t>(options.seed + i);
+        all.push_back({environment, world, start, starts[start - 1], seed});
+      }
+    }
+  }
+  return all;
 }
 
-/// What the names of the units of an explorer have before the rest.
-std::string explorer_prefix(ExplorerKind explorer) {
-  return explorer == ExplorerKind::plane ? "" : std::string(enum_name(explorer)) + '-';
+bool is_first_seed(std::uint64_t seed, const ExperimentOptions& options) {
+  return seed == static_cast<std::uint64_t>(options.seed);
 }
 
-Unit drive_unit(const ExperimentOptions& options, const ExperimentEnvironment& environment,
-                std::size_t start, ExplorerKind explorer) {
+Unit drive_unit(const ExperimentOptions& options, const Departure& from, ExplorerKind explorer) {
   Unit unit;
-  unit.environment = &environment;
-  unit.start = start;
+  unit.environment = from.environment;
+  unit.start = from.start;
   unit.explorer = explorer;
-  unit.name = start_name(unit) + explorer_prefix(explorer) + "trajectory";
-  const double longest_s = duration_max_s(environment, explorer);
+  unit.name = std::string(from.environment->name) + '-' + std::to_string(from.start) + '-';
+  if (!is_first_seed(from.seed, options)) unit.name += "seed-" + std::to_string(from.seed) + '-';
+  if (explorer != ExplorerKind::plane) unit.name += std::string(enum_name(explorer)) + '-';
+  unit.name += kDriveEnding;
+  const double longest_s = duration_max_s(*from.environment, explorer);
   unit.simulation = {
-      .world = {world_of(environment, options.worlds_folder), options.world, {}},
+      .world = from.world,
       .trajectory = options.folder.units() / (unit.name + ".csv"),
-      .seed = static_cast<std::uint64_t>(options.seed),
+      .seed = from.seed,
       .setting = DriveSetting{
-          .start = environment.starts[start - 1],
-          .lidar_range_m = environment.lidar_range_m,
+          .start = from.pose,
+          .lidar_range_m = from.environment->lidar_range_m,
           .duration_max_s = std::min(longest_s, options.duration_max_s.value_or(longest_s)),
           .explorer = explorer}};
   return unit;
 }
 
-Unit episode_unit(const std::vector<Unit>& units, std::size_t drive,
-                  const EpisodeSetting& setting) {
+Unit episode_unit(const ExperimentOptions& options, const std::vector<Unit>& units,
+                  std::size_t drive, const EpisodeSetting& setting) {
   Unit unit = units[drive];
-  unit.name = start_name(unit) + explorer_prefix(unit.explorer) + setting.mode +
-              gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
+  unit.name.resize(unit.name.size() - kDriveEnding.size());
+  unit.name +=
+      setting.mode + gain_suffix(setting, '-') + '-' + format_number(setting.motion_time_s);
   unit.drive = drive;
   unit.simulation.setting = setting;
   // One picture a camera and environment, all from the same start.
   constexpr double kDrawnMotionTime_s = 0.5;
-  if (unit.start == 1 && setting.motion_time_s == kDrawnMotionTime_s) {
-    unit.simulation.picture = unit.simulation.trajectory.parent_path() / (unit.name + ".png");
+  if (unit.start == 1 && is_first_seed(unit.simulation.seed, options) &&
+      setting.motion_time_s == kDrawnMotionTime_s) {
+    unit.simulation.picture = options.folder.units() / (unit.name + ".png");
   }
   return unit;
 }
@@ -102,9 +95,11 @@ bool is_chosen(const Value& value, const std::vector<Value>& chosen) {
   return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
 }
 
-/// The drives of an explorer from all starts, then what is run on them.
-void append_units(std::vector<Unit>& units, const ExperimentOptions& options, ExplorerKind explorer,
+/// The drives of an explorer, then what is run on them.
+void append_units(std::vector<Unit>& units, const ExperimentOptions& options,
+                  std::span<const Departure> all_departures, ExplorerKind explorer,
                   std::span<const EpisodeSetting> all_settings) {
+  if (!is_chosen(explorer, options.explorers)) return;
   std::vector<EpisodeSetting> settings;
   std::ranges::copy_if(all_settings, std::back_inserter(settings),
                        [&](const EpisodeSetting& setting) {
@@ -112,17 +107,13 @@ void append_units(std::vector<Unit>& units, const ExperimentOptions& options, Ex
                        });
   if (settings.empty()) return;
   const std::size_t first = units.size();
-  for (const ExperimentEnvironment* environment : chosen_environments(options.environments)) {
-    const auto starts =
-        std::min(environment->starts.size(), static_cast<std::size_t>(options.starts));
-    for (std::size_t start = 1; start <= starts; ++start) {
-      units.push_back(drive_unit(options, *environment, start, explorer));
-    }
+  for (const Departure& from : all_departures) {
+    units.push_back(drive_unit(options, from, explorer));
   }
   const std::size_t end = units.size();
   for (std::size_t drive = first; drive < end; ++drive) {
     for (const EpisodeSetting& setting : settings) {
-      units.push_back(episode_unit(units, drive, setting));
+      units.push_back(episode_unit(options, units, drive, setting));
     }
   }
 }
@@ -132,42 +123,6 @@ EpisodeSetting expected(double motion_time_s) {
 }
 
 }  // namespace
-
-std::span<const ExperimentEnvironment> experiment_environments() {
-  static const std::vector<ExperimentEnvironment> kEnvironments{
-      {"simple_house",
-       "simple house",
-       "simple_house/worlds/house_with_door.world",
-       4.0,
-       kNoHurry_s,
-       {{-3.0, 1.0, 0.0}, {5.5, -3.0, 1.57}, {-6.5, -3.0, 0.0}}},
-      {"apartment",
-       "apartment",
-       "apartment/worlds/small_house.world",
-       4.0,
-       kNoHurry_s,
-       {{0.0, 0.0, 0.0}, {-7.0, 0.0, 0.0}, {6.0, -3.0, 3.0}}},
-      {"cafe",
-       "cafe",
-       "cafe/worlds/cafe_static_closed.world",
-       4.0,
-       kNoHurry_s,
-       {{0.0, 0.0, 0.0}, {0.0, 9.0, 0.0}, {1.0, -9.0, 1.57}}},
-      {"warehouse",
-       "warehouse",
-       "warehouse/worlds/small_warehouse.world",
-       4.0,
-       kNoHurry_s,
-       {{0.0, 0.0, 0.0}, {-4.0, 8.0, 0.0}, {4.5, -8.0, 3.0}}},
-      {"willowgarage",
-       "willowgarage",
-       "willowgarage/worlds/willowgarage_closed.world",
-       10.0,
-       1615.0,  // as long as the paper's: to see it all takes our robot 3,800 s
-       {{0.0, 0.0, 0.0}}},
-  };
-  return kEnvironments;
-}
 
 std::span<const EpisodeSetting> episode_settings() {
   static const EpisodeSetting kSettings[] = {
@@ -203,13 +158,11 @@ bool ends_with_papers(ExplorerKind explorer) {
 }
 
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
+  const std::vector<Departure> from = departures(options);
   std::vector<Unit> units;
-  if (is_chosen(ExplorerKind::plane, options.explorers)) {
-    append_units(units, options, ExplorerKind::plane, episode_settings());
-  }
+  append_units(units, options, from, ExplorerKind::plane, episode_settings());
   for (const SpatialTest& test : spatial_tests()) {
-    if (!is_chosen(test.explorer, options.explorers)) continue;
-    append_units(units, options, test.explorer, {&test.setting, 1});
+    append_units(units, options, from, test.explorer, {&test.setting, 1});
   }
   return units;
 }

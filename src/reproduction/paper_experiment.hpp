@@ -1,5 +1,4 @@
-// The paper's experiment (Section V) as a list of units: where it takes place, from which starts,
-// and what is run there.
+// The paper's experiment (Section V) as a list of units: what is run, and from where.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "reproduction/environments.hpp"
 #include "reproduction/simulation_unit.hpp"
 
 namespace nbvopt {
-
-/// One of the paper's environments that can be had.
-struct ExperimentEnvironment {
-  std::string_view name;        ///< on command lines and in the names of files
-  std::string_view paper_name;  ///< PaperEnvironment::name
-  std::string_view world_file;  ///< below the folder of the worlds
-  double lidar_range_m;         ///< where beams are cropped for the map in the plane
-  double duration_max_s;        ///< explorations end then
-  std::vector<StartPose> starts;
-};
-
-/// All of them, in the order of the paper's tables.
-std::span<const ExperimentEnvironment> experiment_environments();
 
 /// What is run on every trajectory: the still camera first for each t, which the rest of that t is
 /// compared with.
@@ -63,11 +50,13 @@ struct ExperimentOptions {
   std::filesystem::path worlds_folder;
   WorldOptions world = {};  ///< how worlds are read
   ReproductionFolder folder;
-  std::vector<std::string> environments;  ///< by name; empty: all
+  std::vector<std::string> environments;  ///< by name; empty: all whose worlds are there
   std::vector<ExplorerKind> explorers;    ///< whose drives are made; empty: all
   std::vector<double> motion_times_s;     ///< of what is run on them; empty: all
   std::int64_t starts = 3;                ///< the first so many of each environment
   std::int64_t seed = 1;
+  std::int64_t seeds = 1;  ///< from each start with so many, this one and those after it
+  bool has_people = true;  ///< those of the worlds
   /// Of explorations; none: as the environment has it, in space as the paper's Table 2 has it.
   std::optional<double> duration_max_s;
 };
@@ -89,9 +78,8 @@ struct Unit {
 /// plane, as SpatialTest has it on those of explorers in space.
 std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer = ExplorerKind::plane);
 
-/// All units, each drive before its episodes, those of explorers in space last; their worlds have
-/// not been read. Throws UsageError for an environment that is not known, InputError for a world
-/// that is not there.
+/// All units, each drive before its episodes, those of explorers in space last; digests of their
+/// worlds are still to be read. Throws as chosen_environments() and starts_in() do.
 std::vector<Unit> experiment_units(const ExperimentOptions& options);
 
 /// The command that does a unit's work by itself, as a shell would take it.

@@ -48,6 +48,7 @@ Json to_json(const WorldSource& world) {
   for (const auto& path : world.options.model_paths) model_paths.push_back(path.string());
   const auto& cache = world.options.cache_folder;
   return {{"file", world.file.string()},
+          {"people", world.has_people},
           {"digest", world.digest},
           {"model_paths", model_paths},
           {"cache_folder", cache ? Json(cache->string()) : Json(nullptr)}};
@@ -56,6 +57,7 @@ Json to_json(const WorldSource& world) {
 WorldSource world_of(const Json& json) {
   WorldSource world;
   world.file = json.at("file").get<std::string>();
+  world.has_people = json.at("people").get<bool>();
   world.digest = json.at("digest").get<std::string>();
   for (const Json& path : json.at("model_paths")) {
     world.options.model_paths.emplace_back(path.get<std::string>());
@@ -154,12 +156,17 @@ std::string command_line(const SimulationUnit& simulation, const std::filesystem
                                           "--threads",    "1",
                                           "--no-progress"};
   words.insert(words.end(), common.begin(), common.end());
+  if (!simulation.world.has_people) words.push_back("--without-people");
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
   return line;
 }
 
-World read_world(const WorldSource& source) { return read_world(source.file, source.options); }
+World read_world(const WorldSource& source) {
+  World world = read_world(source.file, source.options);
+  if (!source.has_people) world.people = {};
+  return world;
+}
 
 std::string world_digest(const World& world) {
   const std::string people = world.people.persons.empty() ? "" : to_text(to_json(world.people));

@@ -44,7 +44,8 @@ std::string gain_suffix(const EpisodeSetting& setting, char separator);
 struct WorldSource {
   std::filesystem::path file;
   WorldOptions options;
-  std::string digest;  ///< of what is built from it; empty: not read yet
+  bool has_people = true;  ///< or they are left out
+  std::string digest;      ///< of what is built from it; empty: not read yet
 };
 
 struct SimulationUnit {
@@ -67,7 +68,7 @@ SimulationUnit simulation_unit_of(const Json& json);
 /// goes to that file.
 std::string command_line(const SimulationUnit& simulation, const std::filesystem::path& summary);
 
-/// Reads the world. Throws InputError as nbvopt's read_world() does.
+/// Reads the world, with or without its people. Throws InputError as nbvopt's read_world() does.
 World read_world(const WorldSource& source);
 
 /// That of all that a simulation sees of a world.

@@ -10,8 +10,13 @@
 namespace nbvopt {
 namespace {
 
-/// Episodes of one environment and setting, by start.
-using Episodes = std::map<std::size_t, EpisodeReport>;
+/// Where a drive begins, and its seed.
+using Origin = std::pair<std::size_t, std::uint64_t>;
+
+/// Episodes of one environment and setting.
+using Episodes = std::map<Origin, EpisodeReport>;
+
+Origin origin_of(const Unit& unit) { return {unit.start, unit.simulation.seed}; }
 
 /// A number of an episode.
 using FigureOf = double (*)(const EpisodeReport&);
@@ -59,17 +64,17 @@ class ResultIndex {
       const auto* episode = std::get_if<EpisodeSetting>(&unit.simulation.setting);
       if (unit.environment == &environment && unit.explorer == explorer && episode &&
           *episode == setting && results_[i].episode) {
-        found.emplace(unit.start, *results_[i].episode);
+        found.emplace(origin_of(unit), *results_[i].episode);
       }
     }
     return found;
   }
 
   /// The most that any episode on that drive in the plane has learnt.
-  double best_information(const ExperimentEnvironment& environment, std::size_t start) const {
+  double best_information(const ExperimentEnvironment& environment, const Origin& origin) const {
     double best = 0.0;
     for (std::size_t i = 0; i < units_.size(); ++i) {
-      if (units_[i].environment != &environment || units_[i].start != start ||
+      if (units_[i].environment != &environment || origin_of(units_[i]) != origin ||
           units_[i].explorer != ExplorerKind::plane) {
         continue;
       }
@@ -85,11 +90,11 @@ class ResultIndex {
 
 double mean(const Episodes& episodes, FigureOf figure) {
   double sum = 0.0;
-  for (const auto& [start, episode] : episodes) sum += figure(episode);
+  for (const auto& [origin, episode] : episodes) sum += figure(episode);
   return sum / static_cast<double>(episodes.size());
 }
 
-/// Those of the starts that the others have, too.
+/// Those of the drives that the others have, too.
 Episodes shared_with(const Episodes& episodes, const Episodes& others) {
   Episodes shared;
   std::ranges::copy_if(episodes, std::inserter(shared, shared.end()),
@@ -98,7 +103,7 @@ Episodes shared_with(const Episodes& episodes, const Episodes& others) {
 }
 
 void set_figures(ResultRow& row, const Episodes& episodes) {
-  row.starts = static_cast<double>(episodes.size());
+  row.drives = static_cast<double>(episodes.size());
   row.voxels = mean(episodes, voxels);
   row.information = mean(episodes, information);
   const auto by_information = [](const auto& a, const auto& b) {
@@ -133,9 +138,9 @@ std::optional<double> time_to_s(double share, const Episodes& episodes,
                                 const ExperimentEnvironment& environment,
                                 const ResultIndex& index) {
   double sum_s = 0.0;
-  for (const auto& [start, episode] : episodes) {
+  for (const auto& [origin, episode] : episodes) {
     const auto time_s =
-        episode.summary.growth.time_to_s(share * index.best_information(environment, start));
+        episode.summary.growth.time_to_s(share * index.best_information(environment, origin));
     if (!time_s) return std::nullopt;
     sum_s += *time_s;
   }
@@ -173,9 +178,10 @@ ResultRow paper_row(const PaperEnvironment& paper, std::string test,
   return row;
 }
 
-/// The rows of an environment that cannot be had.
-void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper) {
-  const std::string remark = "not available here";
+/// The rows of an environment whose world is not there.
+void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
+                       const ExperimentEnvironment& environment) {
+  const std::string remark = "there is no " + std::string(environment.world_file);
   rows.push_back(paper_row(paper, "2D", std::nullopt, remark, paper.planar));
   for (std::size_t i = 0; i < kPaperMotionTimes_s.size(); ++i) {
     rows.push_back(paper_row(paper, "2D+grid", kPaperMotionTimes_s[i], remark, paper.optimised[i]));
@@ -234,13 +240,14 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
   }
 }
 
-std::vector<ResultRow> result_rows(const ResultIndex& index) {
+std::vector<ResultRow> result_rows(const ResultIndex& index,
+                                   std::span<const ExperimentEnvironment* const> missing) {
   std::vector<ResultRow> rows;
   for (const PaperEnvironment& paper : paper_tables()) {
     const auto all = experiment_environments();
     const auto environment = std::ranges::find(all, paper.name, &ExperimentEnvironment::paper_name);
-    if (environment == all.end()) {
-      append_paper_rows(rows, paper);
+    if (std::ranges::find(missing, &*environment) != missing.end()) {
+      append_paper_rows(rows, paper, *environment);
     } else if (index.has_environment(*environment)) {
       append_rows(rows, paper, *environment, index);
     }
@@ -258,7 +265,7 @@ void append_predictions(std::vector<PredictionRow>& rows, const std::string& lab
     row.test = test_name(setting);
     row.motion_time_s = setting.motion_time_s;
     for (const ExperimentEnvironment& environment : environments) {
-      for (const auto& [start, episode] : index.episodes(environment, setting)) {
+      for (const auto& [origin, episode] : index.episodes(environment, setting)) {
         row.record += episode.summary.prediction;
       }
     }
@@ -278,9 +285,10 @@ std::vector<PredictionRow> prediction_rows(const ResultIndex& index) {
 
 }  // namespace
 
-ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results) {
+ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results,
+                             std::span<const ExperimentEnvironment* const> missing) {
   const ResultIndex index(units, results);
-  ReproductionTable table{.results = result_rows(index),
+  ReproductionTable table{.results = result_rows(index, missing),
                           .comparisons = compare_tests(units, results),
                           .predictions = prediction_rows(index)};
   for (std::size_t i = 0; i < units.size(); ++i) {

@@ -20,15 +20,15 @@ struct RowLabel {
   std::optional<double> motion_time_s;
 };
 
-/// Our figures are means over the starts; percentages and gain compare with the still camera of
-/// the same t, over those starts that have both.
+/// Our figures are means over the drives, one a start and seed; percentages and gain compare with
+/// the still camera of the same t, over those drives that have both.
 struct ResultRow : RowLabel {
   std::string remark;  ///< why there are no figures of ours, if so
-  std::optional<double> starts;
+  std::optional<double> drives;
   std::optional<double> voxels;
   std::optional<double> voxels_percent;
   std::optional<double> information;
-  std::optional<double> information_least;  ///< of the starts
+  std::optional<double> information_least;  ///< of the drives
   std::optional<double> information_most;
   std::optional<double> ghosts;  ///< where people walk
   std::optional<double> gain;
@@ -39,7 +39,7 @@ struct ResultRow : RowLabel {
   std::optional<double> time_to_50_percent_s;
   std::optional<double> time_to_80_percent_s;
   std::optional<double> time_to_90_percent_s;
-  std::optional<double> regret_percent;  ///< against the oracle of the same t, over shared starts
+  std::optional<double> regret_percent;  ///< against the oracle of the same t, over shared drives
   std::optional<double> duration_s;
   std::optional<double> voxels_per_s;
   std::optional<double> information_per_s;
@@ -48,7 +48,7 @@ struct ResultRow : RowLabel {
   const PaperFigures* paper = nullptr;  ///< none: the paper has no such test
 };
 
-/// Gain predicted and realised, pooled over the starts of one environment or over all.
+/// Gain predicted and realised, pooled over the drives in one environment or over all.
 struct PredictionRow : RowLabel {
   PredictionRecord record;
 };
@@ -62,8 +62,9 @@ struct ReproductionTable {
       {};  ///< names of explorations that ended by their time limit
 };
 
-/// The table of these units, whose results stand in their order. Environments that are not among
-/// them are left out; those of the paper that cannot be had are not.
-ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results);
+/// The table of these units, whose results stand in their order. Of environments that are not among
+/// them, those that are missing have the paper's figures only, and the others no rows.
+ReproductionTable make_table(std::span<const Unit> units, std::span<const UnitResult> results,
+                             std::span<const ExperimentEnvironment* const> missing = {});
 
 }  // namespace nbvopt

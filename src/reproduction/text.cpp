@@ -14,7 +14,7 @@ namespace {
 using Figure = std::optional<double>;
 
 /// How people read a figure.
-enum class Style { whole, percent, ratio };
+enum class Style { whole, percent, ratio, plain, p_value };
 
 /// One figure of every row.
 template <class Row>
@@ -46,7 +46,7 @@ Figure paper_change(const ResultRow& row) {
 Figure finite(double value) { return std::isfinite(value) ? Figure(value) : std::nullopt; }
 
 constexpr Column<ResultRow> kResultColumns[] = {
-    {"starts", "starts", Style::whole, own<&ResultRow::starts>},
+    {"drives", "drives", Style::whole, own<&ResultRow::drives>},
     {"voxels", "voxels", Style::whole, own<&ResultRow::voxels>},
     {"voxels_percent", "voxels %", Style::percent, own<&ResultRow::voxels_percent>},
     {"information", "info", Style::whole, own<&ResultRow::information>},
@@ -94,6 +94,22 @@ constexpr Column<PredictionRow> kPredictionColumns[] = {
      [](const PredictionRow& row) { return finite(100.0 * row.record.bias()); }},
 };
 
+template <auto member>
+Figure compared(const PairedComparison& row) {
+  return static_cast<double>(row.*member);
+}
+
+constexpr Column<PairedComparison> kComparisonColumns[] = {
+    {"motion_time_s", "t (s)", Style::plain, compared<&PairedComparison::motion_time_s>},
+    {"pairs", "drives", Style::whole, compared<&PairedComparison::pairs>},
+    {"better", "better", Style::whole, compared<&PairedComparison::better>},
+    {"mean_percent", "info: mean", Style::percent, compared<&PairedComparison::mean_percent>},
+    {"least_percent", "least", Style::percent, compared<&PairedComparison::least_percent>},
+    {"most_percent", "most", Style::percent, compared<&PairedComparison::most_percent>},
+    {"p", "p", Style::p_value, compared<&PairedComparison::p>},
+    {"p_holm", "p (Holm)", Style::p_value, compared<&PairedComparison::holm_p>},
+};
+
 std::string percent_digits(double value) { return decimal(value, 2) + "%"; }
 std::string ratio_digits(double value) { return decimal(value, 3); }
 
@@ -105,6 +121,10 @@ std::string (*show_of(Style style))(double) {
       return percent_digits;
     case Style::ratio:
       return ratio_digits;
+    case Style::plain:
+      return format_number;
+    case Style::p_value:
+      return p_digits;
   }
   return grouped;
 }
@@ -123,6 +143,15 @@ TableCell cell(const Figure& figure) {
   return figure.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// What every row has to say, after the cells that tell which it is.
+template <class Row>
+void append_columns(TextTable& table, std::span<const Column<Row>> columns) {
+  for (const Column<Row>& column : columns) {
+    table.columns.push_back(
+        {column.key, column.heading == nullptr ? "" : column.heading, show_of(column.style)});
+  }
+}
+
 /// For people an environment's name stands on its first row only, as in the paper.
 template <class Row>
 TextTable text_table(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
@@ -132,10 +161,7 @@ TextTable text_table(const std::vector<Row>& rows, std::span<const Column<Row>> 
                    {"test", ""},
                    {"motion_time_s", ""}},
                   {}};
-  for (const Column<Row>& column : columns) {
-    table.columns.push_back(
-        {column.key, column.heading == nullptr ? "" : column.heading, show_of(column.style)});
-  }
+  append_columns(table, columns);
   std::string environment;
   for (const Row& row : rows) {
     std::vector<TableCell>& cells = table.rows.emplace_back();
@@ -149,15 +175,24 @@ TextTable text_table(const std::vector<Row>& rows, std::span<const Column<Row>> 
 
 Json figure_json(const Figure& figure) { return figure ? Json(*figure) : Json(nullptr); }
 
+/// Which row it is, for programs.
+template <class Row>
+Json label_json(const Row& row) {
+  Json label{{"environment", row.environment},
+             {"test", row.test},
+             {"motion_time_s", figure_json(row.motion_time_s)}};
+  if (const std::string remark = own_remark(row); !remark.empty()) label["remark"] = remark;
+  return label;
+}
+
+Json label_json(const PairedComparison& row) { return {{"test", row.test}, {"other", row.other}}; }
+
 template <class Row>
 Json json(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
   Json all = Json::array();
   for (const Row& row : rows) {
-    Json object{{"environment", row.environment},
-                {"test", row.test},
-                {"motion_time_s", figure_json(row.motion_time_s)}};
+    Json object = label_json(row);
     for (const Column<Row>& column : columns) object[column.key] = figure_json(column.figure(row));
-    if (const std::string remark = own_remark(row); !remark.empty()) object["remark"] = remark;
     all.push_back(std::move(object));
   }
   return all;
@@ -166,36 +201,37 @@ Json json(const std::vector<Row>& rows, std::span<const Column<Row>> columns) {
 }  // namespace
 
 const char* const kResultNotes = R"(
-Figures are means over the starts, with the least and the most of them for the information. Every
-mode captures a frame each t, so each t has a still camera (2D) of its own, which the rows of that t
-below it are compared with; of a start that lacks one of both, the percentages know nothing. `grid`
-is the paper's search (pan only, 0.8 rad) and stands beside its 2D+optimisation, `grid-3` is that
-search over three joints; `auto` and `random` have no counterpart in the paper. 3D is another
-exploration with a still camera: it drives as long as the paper's did and is compared with 2D from
-the same start at the same t; 3D tekniker is the same as the paper's authors changed and ran it, 3D
-after 2D goes on from where 2D ends, for as long in all. NBV is ours: it drives to where the camera
-has most to learn, looks as `auto expected` does, ends by itself and is compared with the same 2D.
-Voxels are occupied ones with u < 1 at the finest resolution, info is Eq. 11 over them; ghosts are
-occupied voxels where the static world has nothing, where people walk; `as_paper_counts` counts as
-the authors' code does, inner nodes of the tree included. `auto` seeks the paper's gain, `auto
-expected` the expected one. `oracle` cheats: it takes the best of 100 random views by what they
-truly bring at the base's next pose; the regret is what is missing to it at the same t. Mean info is
-the area below information over time by the duration, and "to 50 %" when the map knew half of what
-the best of all modes and t knew in the end on that drive; where a start never came so far, there is
-no such time. Compare percentages with the paper's, never absolutes: geometry has no textures here,
-localisation is perfect and the exploration is our own.
+Figures are means over the drives, one a start and seed, with the least and the most of them for the
+information. Every mode captures a frame each t, so each t has a still camera (2D) of its own, which
+the rows of that t below it are compared with; of a drive that lacks one of both, the percentages
+know nothing. `grid` is the paper's search (pan only, 0.8 rad) and stands beside its
+2D+optimisation, `grid-3` is that search over three joints; `auto` and `random` have no counterpart
+in the paper. 3D is another exploration with a still camera: it drives as long as the paper's did
+and is compared with 2D from the same start at the same t; 3D tekniker is the same as the paper's
+authors changed and ran it, 3D after 2D goes on from where 2D ends, for as long in all. NBV is ours:
+it drives to where the camera has most to learn, looks as `auto expected` does, ends by itself and
+is compared with the same 2D. Voxels are occupied ones with u < 1 at the finest resolution, info is
+Eq. 11 over them; ghosts are occupied voxels where the static world has nothing, where people walk;
+`as_paper_counts` counts as the authors' code does, inner nodes of the tree included. `auto` seeks
+the paper's gain, `auto expected` the expected one. `oracle` cheats: it takes the best of 100 random
+views by what they truly bring at the base's next pose; the regret is what is missing to it at the
+same t. Mean info is the area below information over time by the duration, and "to 50 %" when the
+map knew half of what the best of all modes and t knew in the end on that drive; where it never came
+so far, there is no such time. Compare percentages with the paper's, never absolutes: geometry has
+no textures here, localisation is perfect and the exploration is our own.
 )";
 
 const char* const kComparisonNotes = R"(
-How much more information one test ends with than another from the same start, over all starts in
-all environments; better: from so many of them. 3D drives along other ways, and for longer. p is
-Wilcoxon's signed-rank test of these percentages, two-sided, then corrected for all rows after Holm.
-Starts in one environment are not independent of each other, so p is somewhat too small.
+How much more information one test ends with than another from the same start with the same seed,
+over all drives in all environments; better: on so many of them. 3D and NBV drive along other ways,
+3D for longer. p is Wilcoxon's signed-rank test of these percentages, two-sided, then corrected for
+all rows after Holm. Drives in one environment are not independent of each other, so p is somewhat
+too small.
 )";
 
 const char* const kPredictionNotes = R"(
 The gain that a step's search predicted against the gain that its next capture realised, over all
-steps of all starts; the bias is how much more was predicted than came. Realised is what the same
+steps of all drives; the bias is how much more was predicted than came. Realised is what the same
 48 x 36 rays bring by Eq. 12 where the base has driven meanwhile, with the surfaces that are there:
 the search took the base to stand and all that is unknown to be occupied; `auto expected` takes
 neither for granted.
@@ -210,21 +246,12 @@ TextTable prediction_table(const ReproductionTable& table) {
 }
 
 TextTable comparison_table(const ReproductionTable& table) {
-  TextTable text{{{"test", "test type"},
-                  {"other", "against"},
-                  {"motion_time_s", "t (s)", format_number},
-                  {"pairs", "starts"},
-                  {"better", "better"},
-                  {"mean_percent", "info: mean", percent_digits},
-                  {"least_percent", "least", percent_digits},
-                  {"most_percent", "most", percent_digits},
-                  {"p", "p", p_digits},
-                  {"p_holm", "p (Holm)", p_digits}},
-                 {}};
+  TextTable text{{{"test", "test type"}, {"other", "against"}}, {}};
+  append_columns<PairedComparison>(text, kComparisonColumns);
   for (const PairedComparison& row : table.comparisons) {
-    text.rows.push_back({row.test, row.other, row.motion_time_s, static_cast<double>(row.pairs),
-                         static_cast<double>(row.better), row.mean_percent, row.least_percent,
-                         row.most_percent, row.p, row.holm_p});
+    std::vector<TableCell>& cells = text.rows.emplace_back();
+    cells = {row.test, row.other};
+    for (const auto& column : kComparisonColumns) cells.push_back(cell(column.figure(row)));
   }
   return text;
 }
@@ -253,21 +280,8 @@ std::string to_markdown(const ReproductionTable& table) {
 }
 
 Json to_json(const ReproductionTable& table) {
-  Json comparisons = Json::array();
-  for (const PairedComparison& row : table.comparisons) {
-    comparisons.push_back({{"test", row.test},
-                           {"other", row.other},
-                           {"motion_time_s", row.motion_time_s},
-                           {"pairs", row.pairs},
-                           {"better", row.better},
-                           {"mean_percent", row.mean_percent},
-                           {"least_percent", row.least_percent},
-                           {"most_percent", row.most_percent},
-                           {"p", row.p},
-                           {"p_holm", row.holm_p}});
-  }
   return {{"results", json<ResultRow>(table.results, kResultColumns)},
-          {"comparisons", comparisons},
+          {"comparisons", json<PairedComparison>(table.comparisons, kComparisonColumns)},
           {"predictions", json<PredictionRow>(table.predictions, kPredictionColumns)},
           {"missing", table.missing},
           {"incomplete_explorations", table.incomplete}};

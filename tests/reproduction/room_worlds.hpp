@@ -27,9 +27,10 @@ inline std::string room_world(double length_m) {
          box("east", 0.5 * length_m, 0.0, 0.5, "0.1 3 1") + "</world></sdf>";
 }
 
-/// Writes the world of every environment below this folder.
+/// Writes the worlds below this folder that have starts of their own: all but the bookstore.
 inline void write_room_worlds(const std::filesystem::path& folder, double length_m = 3.0) {
   for (const ExperimentEnvironment& environment : experiment_environments()) {
+    if (environment.starts.empty()) continue;
     const std::filesystem::path world = folder / environment.world_file;
     std::filesystem::create_directories(world.parent_path());
     std::ofstream(world) << room_world(length_m);

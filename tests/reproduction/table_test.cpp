@@ -30,6 +30,8 @@ class Reproduction : public testing::Test {
     options.environments = {"cafe", "apartment"};
     units = experiment_units(options);
     results.resize(units.size());
+    const auto all = experiment_environments();
+    missing = {&*std::ranges::find(all, "bookstore", &ExperimentEnvironment::name)};
     for (std::size_t i = 0; i < units.size(); ++i) {
       if (units[i].is_drive()) results[i].drive = {.duration_s = 200.0, .length_m = 40.0};
     }
@@ -51,7 +53,7 @@ class Reproduction : public testing::Test {
     return record;
   }
 
-  ReproductionTable table() const { return make_table(units, results); }
+  ReproductionTable table() const { return make_table(units, results, missing); }
 
   static const ResultRow& row(const ReproductionTable& table, const std::string& environment,
                               const std::string& test, std::optional<double> motion_time_s) {
@@ -67,6 +69,7 @@ class Reproduction : public testing::Test {
   ExperimentOptions options;
   std::vector<Unit> units;
   std::vector<UnitResult> results;
+  std::vector<const ExperimentEnvironment*> missing;
 };
 
 TEST_F(Reproduction, HasARowForEveryTestInThePapersOrder) {
@@ -100,7 +103,7 @@ TEST_F(Reproduction, FiguresAreMeansOverTheStartsAgainstTheStillCameraOfTheSameT
   EXPECT_EQ(still.gain, std::nullopt);
 
   const ResultRow& best = row(made, "cafe", "2D+auto", 0.5);
-  EXPECT_EQ(best.starts, 2.0);
+  EXPECT_EQ(best.drives, 2.0);
   EXPECT_EQ(best.voxels, 2250.0);
   EXPECT_NEAR(best.voxels_percent.value(), 50.0, 1e-12);
   EXPECT_EQ(best.information, 900.0);
@@ -154,7 +157,7 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   at("cafe-1-nbv-auto-expected-0.5").episode = episode(1600, 1100);
   const ReproductionTable made = table();
   const ResultRow& spatial = row(made, "cafe", "3D", 0.5);
-  EXPECT_EQ(spatial.starts, 1.0);
+  EXPECT_EQ(spatial.drives, 1.0);
   EXPECT_EQ(spatial.information, 800.0);
   EXPECT_EQ(spatial.gain, 300.0);
   EXPECT_NEAR(spatial.voxels_percent.value(), 50.0, 1e-12);
@@ -164,6 +167,33 @@ TEST_F(Reproduction, AnotherExplorationIsComparedWithTheStillCameraInThePlane) {
   // It learns on another drive, which the others are not held against.
   EXPECT_EQ(row(made, "cafe", "2D", 0.5).information, 700.0);
   EXPECT_EQ(row(made, "apartment", "3D", 0.5).remark, "missing");
+}
+
+TEST_F(Reproduction, SeedsAreDrivesOfTheirOwn) {
+  options.environments = {"cafe"};
+  options.starts = 1;
+  options.seed = 7;
+  options.seeds = 2;
+  units = experiment_units(options);
+  results.assign(units.size(), {});
+  at("cafe-1-static-0.5").episode = episode(1000, 500);
+  at("cafe-1-auto-0.5").episode = episode(1000, 600);
+  at("cafe-1-seed-8-static-0.5").episode = episode(1000, 700);
+  at("cafe-1-seed-8-auto-0.5").episode = episode(1000, 1000);
+  at("cafe-1-seed-8-3d-static-0.5").episode = episode(1000, 800);
+  const ReproductionTable made = table();
+  const ResultRow& looking = row(made, "cafe", "2D+auto", 0.5);
+  EXPECT_EQ(looking.drives, 2.0);
+  EXPECT_EQ(looking.information, 800.0);
+  EXPECT_EQ(looking.information_least, 600.0);
+  EXPECT_EQ(looking.information_most, 1000.0);
+  EXPECT_EQ(row(made, "cafe", "3D", 0.5).gain, 100.0) << "against the drive of the same seed";
+  EXPECT_EQ(made.comparisons.front().pairs, 2U);
+  for (const Unit& unit : units) {
+    const bool is_second = unit.name.find("seed-8") != std::string::npos;
+    EXPECT_EQ(unit.simulation.seed, is_second ? 8U : 7U);
+    EXPECT_TRUE(!is_second || unit.simulation.picture.empty()) << "one picture is enough";
+  }
 }
 
 TEST_F(Reproduction, TestsThatAreLeftOutHaveNoRows) {
@@ -208,7 +238,8 @@ TEST_F(Reproduction, ThePapersFiguresStandBesideItsOwnTests) {
   EXPECT_EQ(row(made, "cafe", "2D+auto", 0.5).paper, nullptr);
   EXPECT_EQ(row(made, "cafe", "2D+grid-3", 0.5).paper, nullptr);
   EXPECT_EQ(row(made, "bookstore", "2D+grid", 0.5).paper->gain_percent, 18.71);
-  EXPECT_EQ(row(made, "bookstore", "2D+grid", 0.5).remark, "not available here");
+  EXPECT_EQ(row(made, "bookstore", "2D+grid", 0.5).remark,
+            "there is no bookstore/worlds/bookstore.world");
 }
 
 TEST_F(Reproduction, PercentagesCompareOnlyStartsThatHaveBoth) {
@@ -218,7 +249,7 @@ TEST_F(Reproduction, PercentagesCompareOnlyStartsThatHaveBoth) {
   at("cafe-2-grid-0.5").episode = episode(3000, 3000);
   const ReproductionTable made = table();
   const ResultRow& grid = row(made, "cafe", "2D+grid", 0.5);
-  EXPECT_EQ(grid.starts, 2.0);
+  EXPECT_EQ(grid.drives, 2.0);
   EXPECT_EQ(grid.information, 1800.0);
   EXPECT_EQ(grid.gain, 100.0);
   EXPECT_NEAR(grid.gain_percent.value(), 20.0, 1e-12);
@@ -335,7 +366,9 @@ TEST_F(Reproduction, MarkdownIsRoundedAsInThePaper) {
                 "\u22121.23% | 100 |"));
   EXPECT_THAT(markdown, HasSubstr("| 49.50% | 56.35% | 227 | 245 |\n"));
   EXPECT_THAT(markdown, HasSubstr("| all | 2D+grid (t=0.5) | 2 | 1.000 | \u221225.00% |\n"));
-  EXPECT_THAT(markdown, HasSubstr("| bookstore (15x14) | 2D: not available here |"));
+  EXPECT_THAT(
+      markdown,
+      HasSubstr("| bookstore (15x14) | 2D: there is no bookstore/worlds/bookstore.world |"));
   EXPECT_THAT(markdown, HasSubstr("|  | 3D (t=0.5): missing |"));
 }
 
@@ -344,7 +377,7 @@ TEST_F(Reproduction, CsvAndJsonHoldAllFiguresUnrounded) {
   at("cafe-1-grid-0.5").episode = episode(1003, 500.5);
   const ReproductionTable made = table();
   const std::string csv = to_csv(result_table(made));
-  EXPECT_THAT(csv, testing::StartsWith("environment,test,motion_time_s,starts,voxels,"));
+  EXPECT_THAT(csv, testing::StartsWith("environment,test,motion_time_s,drives,voxels,"));
   EXPECT_THAT(csv, HasSubstr("\ncafe (25x10),2D+grid,0.5,1,1003,"));
   EXPECT_THAT(csv, HasSubstr(",103998,49.5,55636,20051,56.35,227,0,457,245\n"));
   const auto columns = [](const std::string& line) { return std::ranges::count(line, ','); };
