@@ -162,7 +162,7 @@ EpisodeReport run_and_keep(const SimulateOptions& options, const Scene& scene,
 
 void tell_episode(const SimulateOptions& options, const ReadyWorld& world, const Drive& drive,
                   Simulation& simulation) {
-  if (options.has_people) simulation.set_people(world.people);
+  if (options.has_people) simulation.set_people(world.people, options.lidar_sees_people);
   EpisodeReport report = run_and_keep(options, world.scene, drive.trajectory, simulation);
   report.drive_status = drive.status;
   answer(options, to_json(report), to_text(report));

@@ -142,7 +142,8 @@ void add_simulate_arguments(CLI::App& simulate, SimulateOptions& options) {
   add_world_arguments(simulate, options.world);
   simulate.add_flag("!--without-people", options.has_people, "leave out the world's actors");
   simulate.add_flag("--lidar-sees-people", options.lidar_sees_people,
-                    "let actors hide from the lidar what is behind them while the base explores");
+                    "let actors hide from the lidar what is behind them, while the base explores "
+                    "and where --pose-source slam goes by it");
   add_drive(simulate, options);
   add_camera(simulate, options);
   add_localisation(simulate, options);
@@ -159,10 +160,12 @@ void check(const SimulateOptions& options) {
       !(options.trajectory_file.empty() && options.drive.goals_map_m.empty())) {
     throw UsageError("--explore chooses where to drive: leave it or --goal and --trajectory out");
   }
-  if (options.lidar_sees_people && !(options.has_people && options.trajectory_file.empty())) {
+  const bool uses_lidar = options.trajectory_file.empty() ||
+                          options.simulation.episode.localisation.source == PoseSource::slam;
+  if (options.lidar_sees_people && !(options.has_people && uses_lidar)) {
     throw UsageError(
-        "--lidar-sees-people is for a drive that is made among people: leave it, or "
-        "--without-people and --trajectory, out");
+        "--lidar-sees-people is for a drive that is made among people, or --pose-source slam on "
+        "one that is replayed: leave it, or --without-people and --trajectory, out");
   }
   if (options.is_exploring_only && !options.trajectory_file.empty()) {
     throw UsageError("--explore-only makes a trajectory: leave --trajectory out");

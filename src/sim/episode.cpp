@@ -54,11 +54,6 @@ struct JointMove {
   double departure_s = 0.0;
 };
 
-std::optional<Bystanders> bystanders_of(const Scene& scene, const EpisodeOptions& options) {
-  if (options.people.persons.empty()) return std::nullopt;
-  return std::optional<Bystanders>(std::in_place, scene, options.people, options.seed);
-}
-
 /// The state of an episode between captures.
 class EpisodeRun {
  public:
@@ -73,7 +68,7 @@ class EpisodeRun {
         mast_(options.robot.mast),
         planning_camera_(options.robot.sensor),
         scene_(scene),
-        bystanders_(bystanders_of(scene, options)),
+        bystanders_(bystanders_of(scene, options.people, options.seed)),
         camera_(scene, options.robot.sensor, options.range_noise_m, options.seed,
                 bystanders_ ? &bystanders_->bodies() : nullptr),
         localiser_(scene, course.trajectory(), options.localisation, options.seed) {

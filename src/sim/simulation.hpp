@@ -61,8 +61,12 @@ class Simulation {
   /// before a world is read or a drive made.
   explicit Simulation(SimulationOptions options);
 
-  /// Lets people walk through the world, who are known once it is read.
-  void set_people(People people) { options_.episode.people = std::move(people); }
+  /// Lets people walk through the world, who are known once it is read. The camera sees them, the
+  /// lidar of slam if asked to.
+  void set_people(People people, bool lidar_sees_them = false) {
+    if (lidar_sees_them) options_.episode.localisation.people = people;
+    options_.episode.people = std::move(people);
+  }
 
   /// Runs the episode as run_episode() does; to be called once.
   EpisodeReport run(const Scene& scene, const Trajectory& trajectory,

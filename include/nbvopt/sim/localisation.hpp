@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "nbvopt/sim/people.hpp"
 #include "nbvopt/sim/simulated_lidar.hpp"
 
 namespace nbvopt {
@@ -19,6 +20,9 @@ struct LocalisationOptions {
   double odometry_noise = 1.0;  ///< multiplies the errors of GMapping's motion model
   LidarOptions lidar = {};
   double lidar_range_m = 4.0;  ///< beams are cropped here
+  /// Whom the lidar of slam sees: they hide what is behind them. The seed is theirs, too. Empty:
+  /// nobody.
+  People people = {};
 
   /// Throws InputError that names the first bad field with its value.
   void validate() const;

@@ -68,12 +68,12 @@ PlaneRobot::PlaneRobot(const Scene& scene, const Transform& T_map_base,
                        const ExplorationOptions& options)
     : options_(checked(scene, T_map_base, options)),
       lidar_(scene, options.lidar),
+      bystanders_(bystanders_of(scene, options.people, options.seed)),
       z_map_m_(T_map_base.translation().z()),
       grid_(options.cell_m),
       clearance_(options.cell_m, clearance_min_m(options) + kRoom_m),
       motion_(options.base, T_map_base.translation().head<2>(), planar_pose(T_map_base).yaw_rad),
       trajectory_({point(0.0)}) {
-  if (!options.people.persons.empty()) bystanders_.emplace(scene, options.people, options.seed);
   scan();
 }
 

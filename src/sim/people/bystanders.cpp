@@ -80,4 +80,10 @@ void Bystanders::move_to(double time_s, const RobotPosition& robot_map_m) {
   bodies_.place(bodies);
 }
 
+std::optional<Bystanders> bystanders_of(const Scene& scene, const People& people,
+                                        std::uint64_t seed) {
+  if (people.persons.empty()) return std::nullopt;
+  return std::optional<Bystanders>(std::in_place, scene, people, seed);
+}
+
 }  // namespace nbvopt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nbvopt/sim/people.hpp"
@@ -29,5 +30,9 @@ class Bystanders {
   std::vector<double> feet_below_m_;  ///< of each walker's position
   PeopleScene bodies_;
 };
+
+/// None where nobody is. Throws as Bystanders does.
+std::optional<Bystanders> bystanders_of(const Scene& scene, const People& people,
+                                        std::uint64_t seed);
 
 }  // namespace nbvopt

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "nbvopt/sim/localisation.hpp"
 #include "nbvopt/sim/scene.hpp"
 #include "nbvopt/sim/trajectory.hpp"
 #include "sim/odometry/odometry.hpp"
 #include "sim/odometry/position_errors.hpp"
+#include "sim/people/bystanders.hpp"
+#include "sim/plane_scan.hpp"
 #include "sim/slam/particle_filter.hpp"
 
 namespace nbvopt {
@@ -15,7 +19,8 @@ namespace nbvopt {
 /// Follows a drive with a lidar and corrects the wheels, as slam_gmapping does for ROS.
 class Slam {
  public:
-  /// Throws InputError when the lidar sees nothing from the start. All must outlive this.
+  /// Throws InputError when the lidar sees nothing from the start, and as Bystanders does. All must
+  /// outlive this.
   Slam(const Scene& scene, const Trajectory& trajectory, const Odometry& odometry,
        const LocalisationOptions& options, std::uint64_t seed);
 
@@ -28,10 +33,15 @@ class Slam {
   const PositionError& errors() const { return errors_.summary(); }  ///< right after them
 
  private:
+  /// What the lidar sees then; times must not go back.
+  std::vector<PlaneBeam> scan(double time_s);
+  std::vector<PlaneBeam> first_scan();
+
   const Trajectory& trajectory_;
   const Odometry& odometry_;
   SimulatedLidar lidar_;
   double lidar_range_m_;
+  std::optional<Bystanders> bystanders_;  ///< whom it sees
   ParticleFilter filter_;
   std::size_t scans_ = 0;
   PositionErrors errors_;

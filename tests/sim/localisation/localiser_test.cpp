@@ -82,6 +82,19 @@ TEST(Localiser, DriftsByOdometryAndHoldsItsCourseBySlam) {
   EXPECT_EQ(odom.scan_count, 0U);
 }
 
+TEST(Localiser, GoesByWhatPeopleLeaveToSee) {
+  const Trajectory drive = beginning_of(ring_drive(), 20.0);
+  const Localised alone = localise(drive, coarse_options(PoseSource::slam));
+  LocalisationOptions among = coarse_options(PoseSource::slam);
+  among.people.persons = {{.name = "somebody", .position_map_m = {-2.0, -2.8, 0.0}}};
+  const Localised beside = localise(drive, among);
+  EXPECT_NE(alone.poses.back().T_map_base.matrix(), beside.poses.back().T_map_base.matrix());
+  EXPECT_LT(beside.record.scans.largest_m, 0.2) << "they hide walls, and are no walls";
+  among.source = PoseSource::odom;
+  EXPECT_EQ(localise(drive, among).poses.back().T_map_base.matrix(),
+            localise(drive, coarse_options(PoseSource::odom)).poses.back().T_map_base.matrix());
+}
+
 TEST(Localiser, ReportsDistancesInThePlane) {
   const Trajectory drive = beginning_of(ring_drive(), 10.0);
   const Localised odom = localise(drive, coarse_options(PoseSource::odom));
