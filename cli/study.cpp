@@ -17,6 +17,7 @@
 #include "core/json.hpp"
 #include "experiment/worker.hpp"
 #include "nbvopt/core/error.hpp"
+#include "study/merge.hpp"
 #include "study/record.hpp"
 #include "study/report/report.hpp"
 #include "study/spec/spec_file.hpp"
@@ -33,6 +34,7 @@ struct StudyOptions {
   std::string folder;
   std::int64_t workers = 0;  ///< 0: one a core
   std::string worker_command;
+  study::Shard shard;
   bool dry_run = false;
   bool retry_failed = false;
 };
@@ -58,6 +60,20 @@ std::string to_text(const study::Study& study, const study::WorkCount& work, std
          std::to_string(to_run) + " to run\n";
 }
 
+/// "I/N", as numbers.
+study::Shard shard_of(const std::string& text) {
+  std::istringstream in(text);
+  std::int64_t part = 0;
+  std::int64_t parts = 0;
+  char slash = 0;
+  constexpr std::int64_t kMost = 1'000'000;
+  if (!(in >> part >> slash >> parts) || !in.eof() || slash != '/' || part < 1 || part > parts ||
+      parts > kMost) {
+    throw UsageError("--shard: '" + text + "' is not I/N with I from 1 to N, such as 1/4");
+  }
+  return {static_cast<std::size_t>(part - 1), static_cast<std::size_t>(parts)};
+}
+
 std::vector<std::string> words(const std::string& text) {
   std::istringstream in(text);
   std::vector<std::string> result;
@@ -71,7 +87,8 @@ study::RunOptions run_options(const StudyOptions& options) {
                                 ? std::vector<std::string>{"/proc/self/exe", "study", "worker"}
                                 : words(options.worker_command),
           .workers = options.workers > 0 ? static_cast<std::size_t>(options.workers) : cores,
-          .retry_failed = options.retry_failed};
+          .retry_failed = options.retry_failed,
+          .shard = options.shard};
 }
 
 /// What was done, and how well the workers were used.
@@ -96,7 +113,7 @@ void run(const StudyOptions& options, WorkKind kind) {
   for (const std::string& remark : declared.remarks) print_message("warning: " + remark);
   const study::Study& study = declared.study;
   const study::StudyFolder folder{options.folder};
-  const study::WorkCount work = study::count_work(study, folder, kind);
+  const study::WorkCount work = study::count_work(study, folder, kind, options.shard);
   const std::size_t to_run = work.total - work.done + (options.retry_failed ? work.failed : 0);
   print_answer(to_text(study, work, to_run, kind));
   if (options.dry_run) return;
@@ -143,6 +160,24 @@ void add_report(CLI::App& study) {
   });
 }
 
+void add_merge(CLI::App& study) {
+  auto parts = std::make_shared<std::vector<std::string>>();
+  auto into = std::make_shared<std::string>();
+  CLI::App* command = study.add_subcommand(
+      "merge", "Join the folders of runs of one study, such as its shards, into DIR");
+  command->add_option("PARTS", *parts, "the folders")->required();
+  command->add_option("--out", *into, "the folder that takes up their records, made if need be")
+      ->type_name("DIR")
+      ->required();
+  command->callback([parts, into] {
+    std::vector<study::StudyFolder> folders;
+    for (const std::string& part : *parts) folders.push_back({part});
+    const study::MergeCount count = study::merge_studies(folders, {*into});
+    print_answer(plural(count.records, "record") + " and " + plural(count.references, "reference") +
+                 " added, " + std::to_string(count.repeated) + " were there\n");
+  });
+}
+
 void add_run_arguments(CLI::App& command, StudyOptions& options) {
   command.add_option("SPEC", options.spec_file, "what is studied, a YAML file")->required();
   command.add_option("--out", options.folder, "the study's folder, made if need be")
@@ -156,6 +191,12 @@ void add_run_arguments(CLI::App& command, StudyOptions& options) {
                   "what starts a worker, words with blanks between them [this program]")
       ->type_name("COMMAND");
   command.add_flag("--retry-failed", options.retry_failed, "run units again that have failed");
+  command
+      .add_option_function<std::string>(
+          "--shard", [&options](const std::string& text) { options.shard = shard_of(text); },
+          "do the I-th of N parts only, I from 1 to N, each into a folder of its own; study merge "
+          "joins them")
+      ->type_name("I/N");
 }
 
 void add_run(CLI::App& study, const char* name, const char* description, WorkKind kind) {
@@ -174,6 +215,7 @@ void set_up_study(CLI::App& app) {
           WorkKind::query);
   add_run(*study, "reference", "Find the best view of every question, by exhaustive search",
           WorkKind::reference);
+  add_merge(*study);
   add_report(*study);
   study
       ->add_subcommand("worker",

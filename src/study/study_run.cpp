@@ -2,6 +2,7 @@
 
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
@@ -19,8 +20,14 @@ class Work final : public experiment::Work {
   Work(const Study& study, const StudyFolder& folder, WorkKind kind)
       : study_(study), folder_(folder), kind_(kind), fingerprints_(study) {}
 
-  std::size_t count() const {
-    return kind_ == WorkKind::query ? unit_count(study_) : case_count(study_);
+  /// The units of a shard, ascending.
+  std::vector<std::size_t> of(const Shard& shard) const {
+    const std::size_t count = kind_ == WorkKind::query ? unit_count(study_) : case_count(study_);
+    std::vector<std::size_t> units;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (shard.has(at(i).case_index)) units.push_back(i);
+    }
+    return units;
   }
 
   std::string id(std::size_t index) {
@@ -78,11 +85,13 @@ std::unordered_map<std::string, bool> finished_units(const std::filesystem::path
 
 }  // namespace
 
-WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind) {
+WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind,
+                     const Shard& shard) {
   const auto finished = finished_units(record_path(folder, kind));
   Work work(study, folder, kind);
-  WorkCount count{.total = work.count()};
-  for (std::size_t i = 0; i < count.total; ++i) {
+  const std::vector<std::size_t> units = work.of(shard);
+  WorkCount count{.total = units.size()};
+  for (const std::size_t i : units) {
     const auto unit = finished.find(work.id(i));
     if (unit == finished.end()) continue;
     ++count.done;
@@ -102,7 +111,7 @@ experiment::RunResult run_study(const Study& study, const StudyFolder& folder, W
   std::vector<std::size_t> to_do;
   {
     const auto finished = finished_units(record_path(folder, kind));
-    for (std::size_t i = 0; i < work.count(); ++i) {
+    for (const std::size_t i : work.of(options.shard)) {
       const auto unit = finished.find(work.id(i));
       if (unit == finished.end() || (unit->second && options.retry_failed)) to_do.push_back(i);
     }

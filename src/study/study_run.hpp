@@ -15,17 +15,29 @@ struct WorkCount {
   std::size_t failed = 0;  ///< of those that are done
 };
 
+/// The part of a study that one of several runs does: every count-th case from `index` on, with all
+/// that is asked of it.
+struct Shard {
+  std::size_t index = 0;
+  std::size_t count = 1;
+
+  bool has(std::size_t case_index) const { return case_index % count == index; }
+};
+
 struct RunOptions {
   std::vector<std::string> worker_command;
   std::size_t workers = 1;
   bool retry_failed = false;  ///< whether units that have failed count as not done
+  Shard shard = {};
 };
 
-/// Counts the queries, or the references, of a study and those with a record. Throws InputError
-/// when the records cannot be read.
-WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind);
+/// Counts the queries, or the references, of a study's shard and those with a record. Throws
+/// InputError when the records cannot be read.
+WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind,
+                     const Shard& shard = {});
 
-/// Writes the study into its folder and runs what has no record there yet; every record is in its
+/// Writes the study into its folder and runs what of the
+/// shard has no record there yet; every record is in its
 /// file before the next. `on_end` is told of each unit that has ended, with its record. Throws
 /// InputError when the folder is used by another run or cannot be written, and as
 /// experiment::run_units().
