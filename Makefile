@@ -12,7 +12,7 @@ NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/searc
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
 .PHONY: help packages packages-ci packages-notebooks packages-docs build demo test \
-        bench bench-search bench-server notebook docs sanitize sanitize-threads fuzz format check-format tidy tidy-changed clean
+        bench bench-search bench-server notebook deb docs sanitize sanitize-threads fuzz format check-format tidy tidy-changed clean
 
 help:  ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 22
@@ -61,6 +61,11 @@ notebook: packages packages-notebooks  ## run the notebooks, which draw docs/ima
 	@for name in $(NOTEBOOKS); do echo "$$name"; notebooks/run.sh $$name $(BUILD) out/notebooks || exit; done
 	@find out/notebooks -maxdepth 1 -name '*.png' -exec cp {} docs/images \;
 	@test -f out/search_quality.jsonl || echo "search_quality is left out: run make bench-search first"
+
+deb: packages  ## build Debian packages in build/deb/packages; packaging/try_packages.sh tries them
+	@cmake --preset deb --log-level=WARNING
+	@cmake --build --preset deb
+	@cpack --config build/deb/CPackConfig.cmake -B build/deb/packages
 
 docs: packages-docs  ## make a site of the documentation and the headers in build/docs/site; warnings are errors
 	@docs/site/build.sh

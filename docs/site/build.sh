@@ -11,7 +11,7 @@ mkdir -p "$pages"
 
 # The pages are those of the repository, in the same places, with the files that they link to.
 for path in README.md LICENSE docs datasets examples notebooks \
-            src/protocol/nbvopt/v1/planner.proto; do
+            packaging/nbvopt.service.in src/protocol/nbvopt/v1/planner.proto; do
   mkdir -p "$pages/$(dirname "$path")"
   ln -s "$root/$path" "$pages/$path"
 done

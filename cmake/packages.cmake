@@ -1,0 +1,52 @@
+# The Debian packages that `make deb` builds, one a component of cmake/install.cmake. Libraries are
+# static, so that there is no package between the tool and what programs are built with.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "nbvopt authors")
+set(CPACK_PACKAGE_CONTACT "nbvopt authors <nbvopt@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_THREADS 2)
+set(CPACK_COMPONENTS_ALL dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # which libraries a program needs, from the program
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libnbvopt-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "The C++ library: static libraries, headers and a CMake package, \
+whose components sim and client need what is recommended.")
+# As packages-planner.txt and packages.txt have them; those that headers alone need are built in.
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, liboctomap-dev, libhwy-dev, libtbb-dev, \
+libyaml-cpp-dev, libpng-dev, zlib1g-dev, liburdfdom-dev, libnlopt-cxx-dev, libceres-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libembree-dev, libtinyxml2-dev, libassimp-dev, \
+libgrpc++-dev, libprotobuf-dev")
+
+if(NBVOPT_BUILD_CLI)
+  list(APPEND CPACK_COMPONENTS_ALL tool)
+  set(CPACK_DEBIAN_TOOL_PACKAGE_NAME nbvopt)
+  set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION science)
+  set(CPACK_COMPONENT_TOOL_DESCRIPTION "The command line tool: queries on maps, a planning server, \
+a simulator, and studies of searches.")
+  if(NBVOPT_BUILD_SERVER)
+    set(CPACK_DEBIAN_TOOL_PACKAGE_CONTROL_EXTRA
+      ${PROJECT_SOURCE_DIR}/packaging/postinst;${PROJECT_SOURCE_DIR}/packaging/prerm;${PROJECT_SOURCE_DIR}/packaging/postrm)
+  endif()
+endif()
+
+if(NBVOPT_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-nbvopt)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module: maps, planner and simulator, and a client \
+of the planning server, which needs what is recommended.")
+  # The module is built for one version of Python.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
+python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-grpcio, python3-protobuf")
+endif()
+
+include(CPack)
