@@ -76,7 +76,7 @@ std::string growth_chart_png(const std::string& title, const std::vector<GrowthS
   std::vector<ChartBand> bands;
   double most = 1e-9;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    Spread spread = spread_of(series[i], last_s, line_style(series[i].line));
+    Spread spread = spread_of(series[i], end_s(series[i]), line_style(series[i].line));
     most = std::max(most, spread.band.upper.back().y());
     lines.push_back(std::move(spread.mean));
     bands.push_back(std::move(spread.band));

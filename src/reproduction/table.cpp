@@ -180,12 +180,15 @@ ResultRow paper_row(const PaperEnvironment& paper, std::string test,
 
 /// The rows of an environment whose world is not there.
 void append_paper_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
-                       const ExperimentEnvironment& environment) {
+                       const ExperimentEnvironment& environment, const ResultIndex& index) {
   const std::string remark = "there is no " + std::string(environment.world_file);
   rows.push_back(paper_row(paper, "2D", std::nullopt, remark, paper.planar));
   for (std::size_t i = 0; i < kPaperMotionTimes_s.size(); ++i) {
+    if (!index.has_test({"grid", kPaperMotionTimes_s[i]}, ExplorerKind::plane)) continue;
     rows.push_back(paper_row(paper, "2D+grid", kPaperMotionTimes_s[i], remark, paper.optimised[i]));
   }
+  const SpatialTest& published = spatial_tests().front();
+  if (!index.has_test(published.setting, published.explorer)) return;
   rows.push_back(paper_row(paper, "3D", std::nullopt, remark, paper.spatial));
 }
 
@@ -247,7 +250,7 @@ std::vector<ResultRow> result_rows(const ResultIndex& index,
     const auto all = experiment_environments();
     const auto environment = std::ranges::find(all, paper.name, &ExperimentEnvironment::paper_name);
     if (std::ranges::find(missing, &*environment) != missing.end()) {
-      append_paper_rows(rows, paper, *environment);
+      append_paper_rows(rows, paper, *environment, index);
     } else if (index.has_environment(*environment)) {
       append_rows(rows, paper, *environment, index);
     }

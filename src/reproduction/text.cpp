@@ -1,5 +1,6 @@
 #include "reproduction/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -259,8 +260,15 @@ TextTable comparison_table(const ReproductionTable& table) {
 std::vector<std::string> hole_notes(const ReproductionTable& table) {
   std::vector<std::string> notes;
   const auto add = [&](const char* what, const std::vector<std::string>& names) {
+    constexpr std::size_t kNamed = 12;
     std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) {
+      text += (text.empty() ? "" : ", ") + names[i];
+    }
+    if (names.size() > kNamed) {
+      text += " and " + grouped(static_cast<double>(names.size() - kNamed)) +
+              " more, which table.json names";
+    }
     if (!names.empty()) notes.push_back(what + text + '.');
   };
   add("Missing, since they did not run to their end: ", table.missing);

@@ -205,6 +205,8 @@ TEST_F(Reproduction, TestsThatAreLeftOutHaveNoRows) {
   for (const ResultRow& row : table().results) {
     if (row.environment == "cafe (25x10)") tests.push_back(row.test);
   }
+  EXPECT_EQ(std::ranges::count(table().results, "bookstore (15x14)", &ResultRow::environment), 3)
+      << "2D, and the grid at two t";
   EXPECT_THAT(tests, ElementsAre("2D", "2D+grid", "2D+grid-3", "2D+auto", "2D+auto expected",
                                  "2D+random", "2D+oracle", "2D", "2D+grid", "2D+auto",
                                  "2D+auto expected", "2D+oracle", "NBV"));
@@ -268,6 +270,8 @@ TEST_F(Reproduction, HolesAreNamed) {
   EXPECT_THAT(made.incomplete, ElementsAre("apartment-3-trajectory"));
   const std::string markdown = to_markdown(made);
   EXPECT_THAT(markdown, HasSubstr("did not run to their end: apartment-2-trajectory, "));
+  EXPECT_THAT(markdown, HasSubstr(" and " + std::to_string(made.missing.size() - 12) +
+                                  " more, which table.json names."));
   EXPECT_THAT(markdown, HasSubstr("for lack of time: apartment-3-trajectory."));
 }
 
