@@ -22,7 +22,7 @@ whose components sim and client need what is recommended.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, liboctomap-dev, libhwy-dev, libtbb-dev, \
 libyaml-cpp-dev, libpng-dev, zlib1g-dev, liburdfdom-dev, libnlopt-cxx-dev, libceres-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libembree-dev, libtinyxml2-dev, libassimp-dev, \
-libgrpc++-dev, libprotobuf-dev")
+libgrpc++-dev, libprotobuf-dev, protobuf-compiler, protobuf-compiler-grpc")
 
 if(NBVOPT_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL tool)
