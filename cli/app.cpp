@@ -11,6 +11,7 @@
 #include "cli/serve.hpp"
 #include "cli/simulate.hpp"
 #include "cli/study.hpp"
+#include "cli/view.hpp"
 #include "cli/world.hpp"
 
 namespace nbvopt {
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::array kSubcommands{set_up_calibrate, set_up_query, set_up_evaluate, set_up_map,
                                   set_up_reproduce, set_up_robot, set_up_serve,    set_up_simulate,
-                                  set_up_study,     set_up_world};
+                                  set_up_study,     set_up_view,  set_up_world};
 
 }  // namespace
 

@@ -26,6 +26,21 @@ Json base_json(const Transform& T_map_base) {
   return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}, {"yaw", yaw_rad(T_map_base)}};
 }
 
+/// The question, as far as it says where robot and joints were.
+Json request_json(const PlanRequest& request) {
+  Json json{{"base", base_json(request.T_map_base)},
+            {"pan", request.joints.pan_rad},
+            {"tilt", request.joints.tilt_rad},
+            {"height", request.joints.height_m},
+            {"motion_time", request.motion_time_s}};
+  if (!request.base_twist.is_zero()) {
+    json["base_velocity"] = {{"vx", request.base_twist.vx_m_s},
+                             {"vy", request.base_twist.vy_m_s},
+                             {"wz", request.base_twist.wz_rad_s}};
+  }
+  return json;
+}
+
 [[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
   char buffer[256];
   std::va_list arguments;
@@ -113,7 +128,8 @@ Json to_json(const QueryAnswer& answer) {
             {"counting", to_string(answer.counting)},
             {"active_bounds", result.active_bounds},
             {"warnings", result.warnings},
-            {"pose", pose_json(result.T_map_sensor)}};
+            {"pose", pose_json(result.T_map_sensor)},
+            {"request", request_json(result.request)}};
   if (!answer.result.request.base_twist.is_zero()) {
     json["base_on_arrival"] = base_json(result.T_map_base);
   }

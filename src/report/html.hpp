@@ -1,4 +1,4 @@
-// Text within a page.
+// Tables and pictures within a page.
 #pragma once
 
 #include <string>
@@ -7,9 +7,6 @@
 #include "report/text_table.hpp"
 
 namespace nbvopt {
-
-/// Text as HTML shows it, quotes of attributes included.
-std::string html_escaped(std::string_view text);
 
 /// A table as people see it; columns whose first cell is text stand to the left.
 std::string to_html(const TextTable& table);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/html_text.hpp"
 #include "core/number.hpp"
 #include "core/text_file.hpp"
 #include "report/html.hpp"

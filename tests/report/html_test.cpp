@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "core/html_text.hpp"
+
 namespace nbvopt::test {
 namespace {
 

@@ -1,0 +1,83 @@
+#include "web/map_page.hpp"
+
+#include <string_view>
+
+#include "web/packed.hpp"
+#include "web/surface_mesh.hpp"
+
+namespace nbvopt {
+namespace {
+
+/// Column by column, as WebGL takes it.
+Json matrix_json(const Transform& transform) {
+  const Eigen::Matrix4d& m = transform.matrix();
+  return std::vector<double>(m.data(), m.data() + m.size());
+}
+
+Json camera_json(const SensorOptions& sensor) {
+  return {{"half_fov_horizontal_rad", sensor.half_fov_horizontal_rad},
+          {"half_fov_vertical_rad", sensor.half_fov_vertical_rad},
+          {"range_min_m", sensor.range_min_m},
+          {"range_max_m", sensor.range_max_m},
+          {"is_range_along_axis", sensor.range_axis == RangeAxis::z_depth}};
+}
+
+Json joints_json(const JointPosition& joints) {
+  return {
+      {"pan_rad", joints.pan_rad}, {"tilt_rad", joints.tilt_rad}, {"height_m", joints.height_m}};
+}
+
+Json view_json(const Transform& T_map_base, const Transform& T_map_sensor,
+               const JointPosition& joints, double gain) {
+  return {{"T_map_base", matrix_json(T_map_base)},
+          {"T_map_sensor", matrix_json(T_map_sensor)},
+          {"joints", joints_json(joints)},
+          {"gain", gain}};
+}
+
+}  // namespace
+
+MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
+                 const std::optional<KeyBox>& box)
+    : name_(name) {
+  const SurfaceMesh mesh = surface_mesh(map, box);
+  faces_ = mesh.seen.faces + mesh.backs.faces;
+  rectangles_ = mesh.seen.rectangles.size() + mesh.backs.rectangles.size();
+  const MapCounts counts = map.counts();
+  data_["map"] = {{"name", name},
+                  {"resolution_m", map.resolution_m()},
+                  {"key_of_origin", Lattice::kKeyOfOrigin},
+                  {"carries_uncertainty", map.carries_uncertainty()},
+                  {"occupied_voxels", counts.occupied_voxels},
+                  {"free_voxels", counts.free_voxels},
+                  {"information", counts.information}};
+  const auto add = [&](const std::string& id, const FaceSet& set) {
+    const auto* values = reinterpret_cast<const char*>(set.values.data());
+    blocks_.push_back({id, packed_rectangles(set.rectangles)});
+    blocks_.push_back({id + "-values", packed_bytes({values, set.values.size()})});
+  };
+  add("seen", mesh.seen);
+  add("backs", mesh.backs);
+  add("frontier", mesh.frontier);
+}
+
+void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
+  const PlanRequest& request = answer.request;
+  const MovingMast moving = moving_mast(request, planner.mast());
+  const Transform T_map_current = moving.T_map_sensor(request.joints);
+  const Transform T_map_chosen = moving.T_map_sensor(answer.joints);
+  const Transform T_map_arrived =
+      T_map_chosen * planner.mast().T_base_sensor(answer.joints).inverse();
+  data_["camera"] = camera_json(planner.robot().sensor);
+  data_["answer"] = {
+      {"why", answer.why},
+      {"motion_time_s", request.motion_time_s},
+      {"move_time_s", planner.mast().move_time_s(request.joints, answer.joints)},
+      {"current",
+       view_json(request.T_map_base, T_map_current, request.joints, answer.current_gain)},
+      {"chosen", view_json(T_map_arrived, T_map_chosen, answer.joints, answer.gain)}};
+}
+
+std::string MapPage::html() const { return page_html(name_, data_, blocks_); }
+
+}  // namespace nbvopt

@@ -1,0 +1,199 @@
+// Rectangles of faces: drawn as instances of one square, coloured a face by a texture.
+"use strict";
+
+const faces = {};
+
+const kVertexShader = `
+attribute vec4 rectangle;  // the least voxel's key, and the shape: see packed.hpp
+attribute float firstFace;
+uniform vec3 origin;       // the key that lies at the map's origin
+uniform float resolution;
+varying vec2 face;         // in the rectangle
+varying float height;
+flat varying vec2 size;    // of the rectangle, faces
+flat varying float first;
+flat varying float shade;
+
+void main() {
+  float width = 1.0 + mod(rectangle.w, 32.0);
+  float rows = 1.0 + mod(floor(rectangle.w / 32.0), 32.0);
+  float normal = floor(rectangle.w / 1024.0);
+  float axis = floor(normal / 2.0);
+  bool positive = mod(normal, 2.0) > 0.5;
+  // Outside is where corners run counter-clockwise.
+  vec2 place = vec2(positive ? position.x : 1.0 - position.x, position.y) * vec2(width, rows);
+  vec3 along = vec3(positive ? 1.0 : 0.0, place);  // across, along width, along height
+  vec3 cell = axis < 0.5 ? along.xyz : axis < 1.5 ? along.zxy : along.yzx;
+  vec3 p = (rectangle.xyz + cell - origin) * resolution;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(p, 1.0);
+  face = place;
+  height = p.z;
+  size = vec2(width, rows);
+  first = firstFace;
+  shade = axis > 1.5 ? (positive ? 1.0 : 0.62) : axis > 0.5 ? 0.86 : 0.74;
+}`;
+
+const kFragmentShader = `
+precision highp float;
+precision highp sampler2D;
+uniform sampler2D values;  // a byte a face, a row of valuesWidth after the other
+uniform sampler2D ramp;
+uniform float valuesWidth;
+uniform vec2 heights;      // of the ramp's ends
+uniform float byHeight;    // 1: the height, 0: the value
+uniform float cutHeight;
+uniform float fade;        // share of grey
+uniform vec3 plainColour;
+uniform float opacity;     // below 1: no values, plainColour
+varying vec2 face;
+varying float height;
+flat varying vec2 size;
+flat varying float first;
+flat varying float shade;
+
+void main() {
+  if (height > cutHeight) discard;
+  if (opacity < 1.0) {
+    gl_FragColor = vec4(plainColour * (0.7 + 0.3 * shade), opacity);
+    return;
+  }
+  vec2 cell = clamp(floor(face), vec2(0.0), size - 1.0);
+  float index = first + cell.y * size.x + cell.x;
+  float row = floor((index + 0.5) / valuesWidth);
+  float value = texelFetch(values, ivec2(index - row * valuesWidth, row), 0).r;
+  float share = byHeight > 0.5 ? (height - heights.x) / max(heights.y - heights.x, 1e-3) : value;
+  vec3 colour = texelFetch(ramp, ivec2(clamp(share, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
+  colour = mix(colour, vec3(0.55), fade);
+  // Voxels are told apart where they are large enough on the screen.
+  vec2 pixel = fwidth(face);
+  vec2 edge = abs(fract(face - 0.5) - 0.5) / max(pixel, vec2(1e-6));
+  float line = 1.0 - min(min(edge.x, edge.y), 1.0);
+  colour *= 1.0 - 0.28 * line * smoothstep(0.25, 0.08, max(pixel.x, pixel.y));
+  gl_FragColor = vec4(colour * shade, 1.0);
+}`;
+
+// Four corners of a square, two triangles.
+const kCorners = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+
+/** A texture of bytes or colours that is read by whole texels. */
+faces.texture = (bytes, width, rows, format) => {
+  const texture = new THREE.DataTexture(bytes, width, rows, format, THREE.UnsignedByteType);
+  texture.magFilter = texture.minFilter = THREE.NearestFilter;
+  texture.unpackAlignment = 1;
+  texture.needsUpdate = true;
+  return texture;
+};
+
+/** Unpacks a set of faces: its rectangles, the number of each one's first face, their values. */
+faces.unpack = async id => {
+  const rectangles = new Uint16Array(await page.bytes(id));
+  const values = new Uint8Array(await page.bytes(id + "-values"));
+  const firstFace = new Float32Array(rectangles.length / 4);
+  let next = 0;
+  for (let i = 0; i < firstFace.length; ++i) {
+    firstFace[i] = next;
+    const shape = rectangles[4 * i + 3];
+    next += (1 + (shape & 31)) * (1 + (shape >> 5 & 31));
+  }
+  return {rectangles, firstFace, values, count: firstFace.length};
+};
+
+/** The settings that all sets share. */
+faces.sharedUniforms = () => ({
+  origin: {value: new THREE.Vector3().setScalar(page.data.map.key_of_origin)},
+  resolution: {value: page.data.map.resolution_m},
+  ramp: {value: null},
+  heights: {value: new THREE.Vector2(0, 1)},
+  byHeight: {value: 0},
+  cutHeight: {value: 1e9},
+  fade: {value: 0},
+});
+
+/** A mesh of a set. `look`: {side, opacity, colour}; opaque sets are coloured by their values. */
+faces.mesh = (set, shared, look = {}) => {
+  const geometry = new THREE.InstancedBufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(kCorners, 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  geometry.setAttribute("rectangle", new THREE.InstancedBufferAttribute(set.rectangles, 4));
+  geometry.setAttribute("firstFace", new THREE.InstancedBufferAttribute(set.firstFace, 1));
+  geometry.maxInstancedCount = set.count;
+  const width = 4096;
+  const rows = Math.max(1, Math.ceil(set.values.length / width));
+  const values = new Uint8Array(width * rows);
+  values.set(set.values);
+  const opacity = look.opacity || 1;
+  const material = new THREE.ShaderMaterial({
+    vertexShader: kVertexShader,
+    fragmentShader: kFragmentShader,
+    side: look.side === undefined ? THREE.FrontSide : look.side,
+    transparent: opacity < 1,
+    depthWrite: opacity === 1,
+    uniforms: Object.assign({}, shared, {
+      values: {value: faces.texture(values, width, rows, THREE.RedFormat)},
+      valuesWidth: {value: width},
+      plainColour: {value: new THREE.Color(look.colour || 0)},
+      opacity: {value: opacity},
+    }),
+  });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;  // the square says nothing of where its instances are
+  return mesh;
+};
+
+/** The box of a set without its outermost hundredths, metres: stray voxels count for nothing. */
+faces.usualBox = sets => {
+  const {resolution_m, key_of_origin} = page.data.map;
+  const keys = [[], [], []];
+  for (const set of sets) {
+    const step = Math.max(1, Math.floor(set.count / 20000));
+    for (let i = 0; i < set.count; i += step) {
+      for (let axis = 0; axis < 3; ++axis) keys[axis].push(set.rectangles[4 * i + axis]);
+    }
+  }
+  const box = new THREE.Box3();
+  if (keys[0].length === 0) return box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+  keys.forEach((sorted, axis) => {
+    sorted.sort((a, b) => a - b);
+    const at = share => sorted[Math.round(share * (sorted.length - 1))];
+    box.min.setComponent(axis, (at(0.01) - key_of_origin) * resolution_m);
+    box.max.setComponent(axis, (at(0.99) + 1 - key_of_origin) * resolution_m);
+  });
+  return box;
+};
+
+/**
+ * The face of a set that a ray meets first, below a height: {distance, value, key, point}; null for
+ * none. `ray` is a THREE.Ray in the map frame.
+ */
+faces.pick = (set, ray, cutHeight) => {
+  const {resolution_m, key_of_origin} = page.data.map;
+  const from = ray.origin.toArray().map(c => c / resolution_m + key_of_origin);
+  const along = ray.direction.toArray();
+  const r = set.rectangles;
+  let best = Infinity, found = -1, bestU = 0, bestV = 0;
+  for (let i = 0; i < set.count; ++i) {
+    const shape = r[4 * i + 3];
+    const normal = shape >> 10, axis = normal >> 1, positive = normal & 1;
+    const speed = along[axis];
+    if (positive ? speed >= 0 : speed <= 0) continue;  // seen from behind
+    const t = (r[4 * i + axis] + positive - from[axis]) / speed;
+    if (t <= 0 || t >= best) continue;
+    const a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const u = Math.floor(from[a] + t * along[a] - r[4 * i + a]);
+    if (u < 0 || u > (shape & 31)) continue;
+    const v = Math.floor(from[b] + t * along[b] - r[4 * i + b]);
+    if (v < 0 || v > (shape >> 5 & 31)) continue;
+    if ((from[2] + t * along[2] - key_of_origin) * resolution_m > cutHeight) continue;
+    best = t, found = i, bestU = u, bestV = v;
+  }
+  if (found < 0) return null;
+  const shape = r[4 * found + 3], axis = shape >> 11;
+  const key = [r[4 * found], r[4 * found + 1], r[4 * found + 2]];
+  key[(axis + 1) % 3] += bestU;
+  key[(axis + 2) % 3] += bestV;
+  return {
+    distance: best * resolution_m,
+    value: set.values[set.firstFace[found] + bestV * (1 + (shape & 31)) + bestU],
+    centre_m: key.map(k => (k + 0.5 - key_of_origin) * resolution_m),
+  };
+};

@@ -1,0 +1,207 @@
+// The page itself: scene, camera, switches.
+"use strict";
+
+(async () => {
+  const {map, answer, camera: sensor} = page.data;
+  const canvas = page.element("scene");
+  const notice = page.element("notice");
+  for (const part of document.querySelectorAll("[data-of]")) {
+    part.hidden = !page.data[part.dataset.of];
+  }
+  const context = canvas.getContext("webgl2", {antialias: true});
+  if (!context || typeof DecompressionStream === "undefined") {
+    notice.textContent = "This page needs WebGL 2 and DecompressionStream: open it in a browser of "
+      + "2023 or newer with graphics switched on.";
+    return;
+  }
+  const renderer = new THREE.WebGLRenderer({canvas, context});
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  const scene = new THREE.Scene();
+  const eye = new THREE.PerspectiveCamera(50, 1, 0.05, 1000);
+  eye.up.set(0, 0, 1);
+  const controls = new THREE.OrbitControls(eye, canvas);
+  controls.screenSpacePanning = true;
+
+  // Nothing moves by itself: a picture is drawn when something changed.
+  page.pictures = 0;
+  page.drawNow = () => {
+    renderer.render(scene, eye);
+    ++page.pictures;
+  };
+  let isAskedFor = false;
+  page.redraw = () => {
+    if (isAskedFor) return;
+    isAskedFor = true;
+    requestAnimationFrame(() => {
+      isAskedFor = false;
+      page.drawNow();
+    });
+  };
+  controls.addEventListener("change", page.redraw);
+
+  // What is shown.
+  const sets = {seen: await faces.unpack("seen"), backs: await faces.unpack("backs"),
+    frontier: await faces.unpack("frontier")};
+  const shared = faces.sharedUniforms();
+  const shown = {
+    seen: faces.mesh(sets.seen, shared),
+    backs: faces.mesh(sets.backs, shared),
+    unknown: faces.mesh(sets.frontier, shared, {side: THREE.BackSide, opacity: 0.45, colour: "#8d6bb8"}),
+    free: faces.mesh(sets.frontier, shared, {opacity: 0.3, colour: "#5aa5c8"}),
+  };
+  if (answer) {
+    shown.views = views.answer(answer, sensor);
+    views.tell(answer);
+  }
+  const tick = (name, isOn) => { page.element("show-" + name).checked = isOn; };
+  // A map without free space, or all of whose surfaces look outward, has backs alone.
+  if (sets.seen.count < sets.backs.count / 20) tick("backs", true);
+  for (const [name, object] of Object.entries(shown)) {
+    scene.add(object);
+    const box = page.element("show-" + name);
+    const follow = () => {
+      object.visible = box.checked;
+      page.redraw();
+    };
+    box.addEventListener("change", follow);
+    follow();
+  }
+
+  const isEmpty = sets.seen.count + sets.backs.count + sets.frontier.count === 0;
+  const box = faces.usualBox(sets.seen.count + sets.backs.count > 0 ? [sets.seen, sets.backs]
+    : [sets.frontier]);
+  const size_m = box.getSize(new THREE.Vector3());
+  notice.textContent = "The map is empty: nothing is known.";
+  notice.hidden = !isEmpty;
+  page.element("facts").textContent =
+    `${map.occupied_voxels.toLocaleString("en")} voxels of ${map.resolution_m} m, `
+    + `${size_m.toArray().map(s => s.toFixed(1)).join(" x ")} m; information `
+    + `${Math.round(map.information).toLocaleString("en")}`
+    + (map.carries_uncertainty ? "" : "; the map carries no uncertainty");
+
+  // A grid on the ground, for scale.
+  const span_m = Math.max(size_m.x, size_m.y);
+  const mesh_m = span_m > 100 ? 10 : 1;
+  const squares = Math.min(200, 2 * Math.ceil(0.6 * span_m / mesh_m));
+  const grid = new THREE.GridHelper(squares * mesh_m, squares, "#9aa5b1", "#9aa5b1");
+  grid.material.transparent = true;
+  grid.material.opacity = 0.35;
+  grid.rotation.x = Math.PI / 2;
+  const onGrid = c => Math.round(c / mesh_m) * mesh_m;
+  grid.position.set(onGrid((box.min.x + box.max.x) / 2), onGrid((box.min.y + box.max.y) / 2),
+    box.min.z - 0.01);
+  scene.add(grid);
+  page.element("facts").textContent += `; the grid's squares are ${mesh_m} m wide`;
+
+  // Colours.
+  const legend = page.element("ramp").getContext("2d");
+  shared.heights.value.set(box.min.z, box.max.z);
+  const colourBy = name => {
+    const byHeight = name === "height";
+    const ramp = page.rampBytes(byHeight ? "viridis" : "cividis");
+    if (shared.ramp.value) shared.ramp.value.dispose();
+    shared.ramp.value = faces.texture(ramp, 256, 1, THREE.RGBAFormat);
+    legend.putImageData(new ImageData(new Uint8ClampedArray(ramp.buffer), 256, 1), 0, 0);
+    shared.byHeight.value = byHeight ? 1 : 0;
+    page.element("ramp-min").textContent = byHeight ? page.shown(box.min.z, 1, " m") : "0: well seen";
+    page.element("ramp-name").textContent = byHeight ? "height z" : "uncertainty u";
+    page.element("ramp-max").textContent = byHeight ? page.shown(box.max.z, 1, " m") : "1: never seen";
+    page.redraw();
+  };
+  for (const choice of document.querySelectorAll("input[name=colour]")) {
+    choice.addEventListener("change", () => colourBy(choice.value));
+    choice.checked = choice.value === (map.carries_uncertainty ? "uncertainty" : "height");
+    if (choice.checked) colourBy(choice.value);
+  }
+
+  // The cut.
+  const cut = page.element("cut");
+  const follow = () => {
+    const share = cut.value / cut.max;
+    const height_m = box.min.z + share * size_m.z;
+    shared.cutHeight.value = share < 1 ? height_m : 1e9;
+    page.element("cut-height").textContent = share < 1 ? page.shown(height_m, 2, " m") : "(all is shown)";
+    page.redraw();
+  };
+  cut.addEventListener("input", follow);
+  follow();
+
+  // Where the eye is.
+  const look = (from, at) => {
+    eye.position.copy(from);
+    controls.target.copy(at);
+    controls.update();
+    page.redraw();
+  };
+  const scope = box.clone();
+  if (answer) scope.expandByObject(shown.views);
+  const centre = scope.getCenter(new THREE.Vector3());
+  const reach_m = Math.max(0.5 * scope.getSize(new THREE.Vector3()).length(), 5 * map.resolution_m);
+  eye.far = 100 * reach_m;
+  eye.near = Math.max(1e-3 * reach_m, 0.2 * map.resolution_m);
+  const first = () => {
+    look(centre.clone().add(new THREE.Vector3(-0.75, -1.1, 1.25).multiplyScalar(1.05 * reach_m)), centre);
+  };
+  const above = () => look(centre.clone().add(new THREE.Vector3(0, -1e-3, 2.2).multiplyScalar(reach_m)), centre);
+  const throughCamera = () => {
+    if (!answer) return;
+    const T_map_sensor = new THREE.Matrix4().fromArray(answer.chosen.T_map_sensor);
+    look(new THREE.Vector3().setFromMatrixPosition(T_map_sensor),
+      new THREE.Vector3(0, 0, 1).applyMatrix4(T_map_sensor));
+  };
+  const resize = () => {
+    renderer.setSize(innerWidth, innerHeight, false);
+    eye.aspect = innerWidth / innerHeight;
+    // What matters stands in the middle of what the panel leaves free.
+    const covered = innerWidth > 700 ? 316 : 0;
+    eye.setViewOffset(innerWidth, innerHeight, -covered / 2, 0, innerWidth, innerHeight);
+    eye.updateProjectionMatrix();
+    page.redraw();
+  };
+  addEventListener("resize", resize);
+  resize();
+  first();
+
+  addEventListener("keydown", event => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const box = document.querySelector(`[data-key="${CSS.escape(event.key)}"]`);
+    if (box && !box.closest("[hidden]")) box.click();
+    const moves = {r: first, t: above, c: throughCamera};
+    const move = moves[event.key.toLowerCase()];
+    if (move) move();
+  });
+
+  // The voxel under the pointer.
+  const caster = new THREE.Raycaster();
+  let pointer = null;
+  const point = () => {
+    if (!pointer) return;
+    const {clientX, clientY} = pointer;
+    pointer = null;
+    caster.setFromCamera({x: 2 * clientX / innerWidth - 1, y: 1 - 2 * clientY / innerHeight}, eye);
+    let best = null;
+    for (const name of ["seen", "backs"]) {
+      if (!shown[name].visible) continue;
+      const hit = faces.pick(sets[name], caster.ray, shared.cutHeight.value);
+      if (hit && (!best || hit.distance < best.distance)) best = hit;
+    }
+    if (!best) return page.showTip("");
+    const u = best.value === 255 ? "1" : (best.value / 255).toFixed(2);
+    page.showTip(`voxel at ${best.centre_m.map(c => c.toFixed(2)).join(", ")} m`
+      + (map.carries_uncertainty ? `\nuncertainty ${u}` : ""), clientX, clientY);
+  };
+  canvas.addEventListener("pointermove", event => {
+    if (!pointer) requestAnimationFrame(point);
+    pointer = event.buttons === 0 ? event : null;
+    if (event.buttons !== 0) page.showTip("");
+  });
+  canvas.addEventListener("pointerleave", () => page.showTip(""));
+
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", page.redraw);
+  page.renderer = renderer;
+  page.isReady = true;
+})().catch(error => {
+  page.element("notice").hidden = false;
+  page.element("notice").textContent = "The page cannot be shown: " + error.message;
+  console.error(error);
+});

@@ -1,0 +1,150 @@
+"""The page of nbvopt view in a real browser: it draws, its switches work, it runs no text."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    webdriver = None
+
+DATASETS = pathlib.Path(__file__).resolve().parents[2] / "datasets"
+OFFICE = str(DATASETS / "office_partial.ot")
+QUERY = "--base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1 --max-evals 50".split()
+HOSTILE = "</script><script>window.hacked = 1</script><img src=x onerror='window.hacked = 1'>"
+
+# What the picture shows: how many pixels are not of its most frequent colour, and how many colours
+# there are. Read in the task that draws it, before the browser takes the picture.
+LOOK = """
+  page.drawNow();
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [320, 200];
+  const brush = copy.getContext("2d");
+  brush.drawImage(page.element("scene"), 0, 0, copy.width, copy.height);
+  const pixels = new Uint32Array(brush.getImageData(0, 0, copy.width, copy.height).data.buffer);
+  const counts = new Map();
+  for (const p of pixels) counts.set(p, (counts.get(p) || 0) + 1);
+  return {drawn: pixels.length - Math.max(...counts.values()), colours: counts.size};
+"""
+
+
+def run_cli(*arguments: str) -> None:
+    subprocess.run([os.environ["NBVOPT_CLI"], *arguments], capture_output=True, check=True)
+
+
+@unittest.skipUnless(webdriver and shutil.which("chromium") and shutil.which("chromedriver"),
+                     "needs chromium, chromium-driver and python3-selenium")
+class ViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for argument in ("--headless", "--no-sandbox", "--disable-quic", "--no-first-run",
+                         "--disable-background-networking", "--disable-component-update",
+                         "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader",
+                         "--enable-unsafe-swiftshader", "--window-size=1000,800",
+                         f"--user-data-dir={cls.folder.name}/profile"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.browser = webdriver.Chrome(options=options,
+                                       service=Service(shutil.which("chromedriver")))
+        cls.answer = f"{cls.folder.name}/answer.json"
+        cls.page = f"{cls.folder.name}/view.html"
+        run_cli("query", OFFICE, *QUERY, "--json-out", cls.answer)
+        run_cli("view", OFFICE, "--answer", cls.answer, "-o", cls.page)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.folder.cleanup()
+
+    def open(self, page: str) -> None:
+        self.browser.get_log("browser")  # what earlier pages left there
+        self.browser.get(f"file://{page}")
+        WebDriverWait(self.browser, 60, 0.05).until(
+            lambda browser: browser.execute_script("return !!page.isReady && page.pictures > 0"))
+
+    def look(self) -> dict:
+        return self.browser.execute_script(LOOK)
+
+    def click(self, name: str) -> None:
+        self.browser.find_element(By.ID, name).click()
+
+    def text(self, name: str) -> str:
+        return self.browser.find_element(By.ID, name).text
+
+    def assert_quiet(self) -> None:
+        self.assertEqual(self.browser.get_log("browser"), [])
+
+    def test_draws_the_map_and_heeds_its_switches(self):
+        self.open(self.page)
+        everything = self.look()
+        self.assertGreater(everything["drawn"], 4000)
+        self.assertGreater(everything["colours"], 500)
+        self.click("show-views")
+        without_views = self.look()
+        self.assertLess(without_views["drawn"], everything["drawn"] - 500)
+        self.click("show-unknown")
+        self.assertGreater(self.look()["drawn"], without_views["drawn"] + 500)
+        self.click("show-unknown")
+        self.click("show-seen")
+        self.assertLess(self.look()["colours"], without_views["colours"] / 2)  # the grid is left
+        self.assert_quiet()
+
+    def test_colours_by_what_is_chosen(self):
+        self.open(self.page)
+        self.assertIn("uncertainty", self.text("ramp-name"))
+        by_uncertainty = self.look()
+        self.browser.find_element(By.CSS_SELECTOR, "[value=height]").click()
+        self.assertIn("height", self.text("ramp-name"))
+        self.assertNotEqual(self.look()["colours"], by_uncertainty["colours"])
+        self.browser.execute_script(
+            "const cut = page.element('cut'); cut.value = 100; cut.dispatchEvent(new Event('input'))")
+        self.assertIn(" m", self.text("cut-height"))
+        self.assertLess(self.look()["drawn"], by_uncertainty["drawn"])
+        self.assert_quiet()
+
+    def test_tells_the_answer(self):
+        self.open(self.page)
+        with open(self.answer, encoding="utf-8") as file:
+            answer = json.load(file)
+        self.assertIn(f"{answer['gain']:.1f}", self.text("answer"))
+        self.assertIn(f"{answer['tilt']:.3f} rad", self.text("answer"))
+        self.assertIn(answer["message"], self.text("why"))
+        self.assert_quiet()
+
+    def test_runs_no_text(self):
+        with open(self.answer, encoding="utf-8") as file:
+            answer = json.load(file)
+        answer["message"] = HOSTILE
+        # Folders of a path: the name holds what ends an element.
+        folder = pathlib.Path(self.folder.name, HOSTILE)
+        folder.mkdir(parents=True)
+        shutil.copy(OFFICE, folder / "map.ot")
+        answer_file = folder / "answer.json"
+        answer_file.write_text(json.dumps(answer), encoding="utf-8")
+        page = f"{self.folder.name}/hostile.html"
+        run_cli("view", str(folder / "map.ot"), "--answer", str(answer_file), "-o", page)
+        self.open(page)
+        self.assertIn(HOSTILE, self.text("why"))
+        self.assertIsNone(self.browser.execute_script("return window.hacked || null"))
+        self.assertEqual(self.browser.find_elements(By.TAG_NAME, "img"), [])
+        self.assert_quiet()
+        # Were a text to become markup after all, the policy would keep it from running.
+        self.browser.execute_script(
+            "const script = document.createElement('script'); script.textContent = 'window.hacked = 1';"
+            "document.body.append(script)")
+        self.assertIsNone(self.browser.execute_script("return window.hacked || null"))
+
+
+if __name__ == "__main__":
+    unittest.main()
