@@ -423,6 +423,13 @@ def simulate_checks(shared: Path):
     for mode in ["auto", "grid", "grid-3", "random", "static"]:
         own = ["--duration-max", "15", "--mode", mode, "--trajectory-out", "drive.csv"]
         yield Check(f"simulate --mode {mode}", [[*world, *start, *own, *files]])
+    for source in ["odom", "slam"]:
+        own = ["--duration-max", "8", "--pose-source", source]
+        yield Check(f"simulate --pose-source {source}", [[*world, *start, *own, *files]])
+    for explorer in ["3d", "nbv"]:
+        own = ["--duration-max", "8", "--explore", explorer, "--explore-only"]
+        own += ["--trajectory-out", "drive.csv"]
+        yield Check(f"simulate --explore {explorer}", [[*world, *start, *own]])
     yield Check(
         "simulate, options",
         [
