@@ -4,6 +4,7 @@
 
 #include "web/packed.hpp"
 #include "web/surface_mesh.hpp"
+#include "web/voxel_gains.hpp"
 
 namespace nbvopt {
 namespace {
@@ -76,6 +77,35 @@ void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
       {"current",
        view_json(request.T_map_base, T_map_current, request.joints, answer.current_gain)},
       {"chosen", view_json(T_map_arrived, T_map_chosen, answer.joints, answer.gain)}};
+  add_landscape(answer, planner);
+  add_voxel_gains(T_map_chosen, planner);
+}
+
+void MapPage::add_landscape(const AnswerFile& answer, const ViewPlanner& planner) {
+  PlanResult result;
+  result.request = answer.request;
+  result.joints = answer.joints;
+  result.box = planner.reachable_box(answer.request);
+  const Landscape landscape = planner.landscape(result);
+  data_["landscape"] = {{"height_m", landscape.height_m},
+                        {"pan_rad", landscape.pan_rad},
+                        {"tilt_rad", landscape.tilt_rad}};
+  blocks_.push_back({"landscape-gains", packed_numbers(landscape.gain)});
+}
+
+void MapPage::add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner) {
+  const SensorOptions& sensor = planner.robot().sensor;
+  // Other gains look at all that lies on a ray, or are not of voxels.
+  if (planner.evaluator() != "exact" || sensor.gain != GainKind::positive) return;
+  std::vector<double> numbers;
+  const std::vector<VoxelGain> gains = voxel_gains(*planner.grid(), sensor, T_map_sensor);
+  for (const VoxelGain& voxel : gains) {
+    const Eigen::Vector3d key = Eigen::Vector3d(voxel.key.x, voxel.key.y, voxel.key.z);
+    numbers.insert(numbers.end(), {key.x(), key.y(), key.z(), voxel.gain,
+                                   voxel.kind == HitKind::occupied ? 1.0 : 0.0});
+  }
+  data_["voxel_gains"] = {{"count", gains.size()}};
+  blocks_.push_back({"voxel-gains", packed_numbers(numbers)});
 }
 
 std::string MapPage::html() const { return page_html(name_, data_, blocks_); }

@@ -19,8 +19,9 @@ class MapPage {
   /// surface_mesh() does.
   MapPage(const std::string& name, const UncertaintyMap& map, const std::optional<KeyBox>& box);
 
-  /// The robot, the view that it has and the one that the answer chooses; `planner` has the map.
-  /// Throws InputError where the answer's joints or base cannot be those of the planner's robot.
+  /// The robot, the view that it has and the one that the answer chooses, the gain over pan and
+  /// tilt around it, and of the exact positive gain the voxels that it comes from; `planner` has
+  /// the map. Throws InputError where the answer's request cannot be one to the planner's robot.
   void add_answer(const AnswerFile& answer, const ViewPlanner& planner);
 
   std::uint64_t faces() const { return faces_; }            ///< of occupied voxels
@@ -29,6 +30,9 @@ class MapPage {
   std::string html() const;
 
  private:
+  void add_landscape(const AnswerFile& answer, const ViewPlanner& planner);
+  void add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner);
+
   std::string name_;
   Json data_;
   std::vector<PageBlock> blocks_;

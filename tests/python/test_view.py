@@ -11,6 +11,7 @@ import unittest
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
@@ -120,6 +121,31 @@ class ViewTest(unittest.TestCase):
         self.assertIn(f"{answer['gain']:.1f}", self.text("answer"))
         self.assertIn(f"{answer['tilt']:.3f} rad", self.text("answer"))
         self.assertIn(answer["message"], self.text("why"))
+        self.assert_quiet()
+
+    def test_shows_what_each_voxel_gains(self):
+        self.open(self.page)
+        colours = self.look()["colours"]
+        self.click("show-gains")
+        self.assertNotEqual(self.look()["colours"], colours)
+        # The pointer goes through the middle of the chosen view, from where the camera is.
+        self.browser.find_element(By.TAG_NAME, "body").send_keys("c")
+        scene = self.browser.find_element(By.ID, "scene")
+        x = 316 // 2  # what the panel covers
+        ActionChains(self.browser).move_to_element_with_offset(scene, x, 0).perform()
+        WebDriverWait(self.browser, 10, 0.05).until(lambda _: self.text("tip") != "")
+        self.assertRegex(self.text("tip"), r"^gain \d+\.\d\d of at most .*\nfrom the unknown$")
+        self.assert_quiet()
+
+    def test_tells_the_gain_under_the_pointer(self):
+        self.open(self.page)
+        self.assertRegex(self.text("landscape-value"), r"^gain 0.0 \(dark\) to \d+\.\d;")
+        landscape = self.browser.find_element(By.ID, "landscape-map")
+        before = self.look()
+        ActionChains(self.browser).move_to_element_with_offset(landscape, 60, 10).perform()
+        self.assertRegex(self.text("landscape-value"),
+                         r"^pan \d+\.\d\d, tilt -?\d+\.\d\d rad: gain \d+\.\d$")
+        self.assertGreater(self.look()["drawn"], before["drawn"])  # such a view is outlined
         self.assert_quiet()
 
     def test_runs_no_text(self):

@@ -53,6 +53,8 @@
     shown.views = views.answer(answer, sensor);
     views.tell(answer);
   }
+  const voxels = page.data.voxel_gains && await gains.voxels();
+  if (voxels) shown.gains = voxels.mesh;
   const tick = (name, isOn) => { page.element("show-" + name).checked = isOn; };
   // A map without free space, or all of whose surfaces look outward, has backs alone.
   if (sets.seen.count < sets.backs.count / 20) tick("backs", true);
@@ -61,6 +63,7 @@
     const box = page.element("show-" + name);
     const follow = () => {
       object.visible = box.checked;
+      if (name === "gains") shared.fade.value = box.checked ? 0.7 : 0;  // colours tell one thing
       page.redraw();
     };
     box.addEventListener("change", follow);
@@ -185,6 +188,10 @@
       const hit = faces.pick(sets[name], caster.ray, shared.cutHeight.value);
       if (hit && (!best || hit.distance < best.distance)) best = hit;
     }
+    const [cube] = voxels && voxels.mesh.visible ? caster.intersectObject(voxels.mesh) : [];
+    if (cube && !(best && best.distance < cube.distance)) {
+      return page.showTip(voxels.tell(cube), clientX, clientY);
+    }
     if (!best) return page.showTip("");
     const u = best.value === 255 ? "1" : (best.value / 255).toFixed(2);
     page.showTip(`voxel at ${best.centre_m.map(c => c.toFixed(2)).join(", ")} m`
@@ -196,6 +203,12 @@
     if (event.buttons !== 0) page.showTip("");
   });
   canvas.addEventListener("pointerleave", () => page.showTip(""));
+
+  if (answer) {
+    const tried = views.frustum(sensor, {colour: new THREE.Color(page.styleColour("--tried"))});
+    scene.add(tried);
+    await gains.landscape(answer, tried);
+  }
 
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", page.redraw);
   page.renderer = renderer;

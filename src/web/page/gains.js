@@ -1,0 +1,130 @@
+// What views gain: of the chosen one by voxel, of others over pan and tilt.
+"use strict";
+
+const gains = {};
+
+/** The voxels that a view's gain comes from as coloured cubes, and what the pointer tells of them. */
+gains.voxels = async () => {
+  const numbers = new Float32Array(await page.bytes("voxel-gains"));
+  const {resolution_m, key_of_origin} = page.data.map;
+  const kNumbers = 5;  // x, y, z, gain, 1 for occupied
+  const count = numbers.length / kNumbers;
+  let greatest = 0;
+  for (let i = 0; i < count; ++i) greatest = Math.max(greatest, numbers[kNumbers * i + 3]);
+  const cube = new THREE.BoxBufferGeometry(1, 1, 1).toNonIndexed().getAttribute("position").array;
+  const corners = cube.length / 3;
+  const position = new Float32Array(count * cube.length);
+  const colour = new Float32Array(count * cube.length);
+  for (let i = 0; i < count; ++i) {
+    const shares = page.rampColour("viridis", numbers[kNumbers * i + 3] / greatest).map(c => c / 255);
+    for (let k = 0; k < cube.length; ++k) {
+      // A little larger than the voxel, so that its faces lie before those of the map.
+      const key = numbers[kNumbers * i + k % 3] + 0.5 + 1.04 * cube[k];
+      position[i * cube.length + k] = (key - key_of_origin) * resolution_m;
+      colour[i * cube.length + k] = shares[k % 3];
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(colour, 3));
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({vertexColors: THREE.VertexColors}));
+  const tell = hit => {
+    const i = Math.floor(3 * hit.faceIndex / corners);
+    const kind = numbers[kNumbers * i + 4] ? "a badly seen surface" : "the unknown";
+    return `gain ${numbers[kNumbers * i + 3].toFixed(2)} of at most ${greatest.toFixed(2)}\nfrom ${kind}`;
+  };
+  return {mesh, tell};
+};
+
+/** T_map_sensor of joints on the base of a view, column by column, if the mast is as is usual. */
+const cameraMatrix = (view, pan_rad, tilt_rad, height_m) => {
+  const optical = new THREE.Matrix4().set(0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  return new THREE.Matrix4().fromArray(view.T_map_base)
+    .multiply(new THREE.Matrix4().makeTranslation(0, 0, height_m))
+    .multiply(new THREE.Matrix4().makeRotationZ(pan_rad))
+    .multiply(new THREE.Matrix4().makeRotationY(-tilt_rad))
+    .multiply(optical).elements;
+};
+
+/** Whether two matrices are the same to a tenth of a millimetre. */
+const isSame = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < 1e-4);
+
+/**
+ * Draws the landscape and tells the gain under the pointer. `tried` is an object in the scene that
+ * is placed where such a view would look; hidden where nothing is pointed at.
+ */
+gains.landscape = async (answer, tried) => {
+  const {pan_rad, tilt_rad, height_m} = page.data.landscape;
+  const gain = new Float32Array(await page.bytes("landscape-gains"));
+  const greatest = gain.reduce((a, b) => Math.max(a, b), 0);
+  const least = gain.reduce((a, b) => Math.min(a, b), 0);
+  const canvas = page.element("landscape-map");
+  const value = page.element("landscape-value");
+  page.element("landscape-height").textContent = page.shown(height_m, 3, " m");
+  page.element("pan-min").textContent = page.shown(pan_rad[0], 2, " rad");
+  page.element("pan-max").textContent = page.shown(pan_rad[pan_rad.length - 1], 2, " rad");
+
+  // The gains as a picture, tilt upwards; then what is marked on it.
+  const picture = document.createElement("canvas");
+  [picture.width, picture.height] = [pan_rad.length, tilt_rad.length];
+  const image = new ImageData(picture.width, picture.height);
+  gain.forEach((g, i) => {
+    const column = i % picture.width;
+    const row = picture.height - 1 - Math.floor(i / picture.width);
+    const share = greatest > least ? (g - least) / (greatest - least) : 0;
+    image.data.set([...page.rampColour("viridis", share), 255], 4 * (row * picture.width + column));
+  });
+  picture.getContext("2d").putImageData(image, 0, 0);
+
+  const place = (axis, at) => axis.length < 2 ? 0.5
+    : (0.5 + (at - axis[0]) / (axis[axis.length - 1] - axis[0]) * (axis.length - 1)) / axis.length;
+  const draw = () => {
+    const scale = Math.min(devicePixelRatio, 2);
+    canvas.width = canvas.clientWidth * scale;
+    canvas.height = canvas.clientHeight * scale;
+    const brush = canvas.getContext("2d");
+    brush.imageSmoothingEnabled = false;
+    brush.drawImage(picture, 0, 0, canvas.width, canvas.height);
+    for (const [view, colour] of [[answer.current, "#e4e7eb"], [answer.chosen, "#ffffff"]]) {
+      const x = place(pan_rad, view.joints.pan_rad) * canvas.width;
+      const y = (1 - place(tilt_rad, view.joints.tilt_rad)) * canvas.height;
+      const isChosen = view === answer.chosen;
+      for (const [width, stroke] of [[4, "#1f2933"], [1.8, colour]]) {
+        brush.lineWidth = width * scale;
+        brush.strokeStyle = stroke;
+        brush.setLineDash(isChosen ? [] : [3 * scale, 2 * scale]);
+        brush.beginPath();
+        brush.arc(x, y, 6 * scale, 0, 2 * Math.PI);
+        brush.stroke();
+      }
+    }
+  };
+  draw();
+  addEventListener("resize", draw);
+
+  const rest = () => {
+    value.textContent = `gain ${page.shown(least, 1)} (dark) to ${page.shown(greatest, 1)}; `
+      + "dashed: now, ring: chosen";
+    tried.visible = false;
+    page.redraw();
+  };
+  const {current, chosen} = answer;
+  const isUsualMast = [current, chosen].every(view => isSame(view.T_map_sensor, cameraMatrix(view,
+    view.joints.pan_rad, view.joints.tilt_rad, view.joints.height_m)));
+  const point = (column, row) => {
+    value.textContent = `pan ${page.shown(pan_rad[column], 2)}, tilt ${page.shown(tilt_rad[row], 2)} rad: `
+      + `gain ${page.shown(gain[row * pan_rad.length + column], 1)}`;
+    if (!isUsualMast) return;
+    views.place(tried, cameraMatrix(chosen, pan_rad[column], tilt_rad[row], height_m));
+    tried.visible = true;
+    page.redraw();
+  };
+  const cell = (share, count) => Math.min(count - 1, Math.max(0, Math.floor(share * count)));
+  canvas.addEventListener("pointermove", event => {
+    const frame = canvas.getBoundingClientRect();
+    point(cell((event.clientX - frame.left) / frame.width, pan_rad.length),
+      cell((frame.bottom - event.clientY) / frame.height, tilt_rad.length));
+  });
+  canvas.addEventListener("pointerleave", rest);
+  rest();
+};
