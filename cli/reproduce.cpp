@@ -16,6 +16,7 @@
 #include "core/atomic_file.hpp"
 #include "core/folder.hpp"
 #include "experiment/worker.hpp"
+#include "experiment/workers.hpp"
 #include "nbvopt/core/error.hpp"
 #include "reproduction/page.hpp"
 #include "reproduction/paper_tables.hpp"
@@ -63,10 +64,9 @@ void print_commands(std::vector<Unit> units, const ReproductionFolder& folder) {
 }
 
 /// Runs what has no result yet; the number of units that failed.
-std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& options) {
+std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& options,
+                      experiment::Pool& pool) {
   const ReproductionFolder& folder = options.experiment.folder;
-  const std::size_t workers = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
-                                               : std::max(1U, std::thread::hardware_concurrency());
   Progress progress("reproduce", static_cast<double>(count_missing(read_results(units, folder))));
   double ended = 0.0;
   const auto on_record = [&](const Json& record) {
@@ -77,14 +77,17 @@ std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& op
     }
     progress.update(++ended);
   };
-  const experiment::RunResult result = run_reproduction(
-      units, folder, {"/proc/self/exe", "reproduce", "worker"}, workers, on_record);
+  const experiment::RunResult result = run_reproduction(units, folder, pool, on_record);
   progress.finish();
   if (result.stopped_by) end_by(*result.stopped_by);
   return result.failed;
 }
 
 void reproduce(ReproduceOptions options) {
+  experiment::Workers workers({"/proc/self/exe", "reproduce", "worker"},
+                              options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
+                                               : std::max(1U, std::thread::hardware_concurrency()));
+  if (workers.is_servant()) return workers.serve();
   options.experiment.world = {.model_paths = gazebo_model_paths(),
                               .cache_folder = user_cache_folder()};
   const ReproductionFolder& folder = options.experiment.folder;
@@ -93,7 +96,10 @@ void reproduce(ReproduceOptions options) {
   const auto missing = tell_missing(options.experiment);
   if (options.dry_run) return print_commands(std::move(units), folder);
   read_worlds(units);
-  const std::size_t failed = options.tables_only ? 0 : run_units(units, options);
+  std::set<std::filesystem::path> worlds;
+  for (const Unit& unit : units) worlds.insert(unit.simulation.world.file);
+  workers.require_files(std::vector(worlds.begin(), worlds.end()));
+  const std::size_t failed = options.tables_only ? 0 : run_units(units, options, workers.pool());
   const std::vector<UnitResult> results = read_results(units, folder);
   const ReproductionTable table = make_table(units, results, missing);
   write_tables(table, folder.root);

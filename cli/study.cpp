@@ -16,6 +16,7 @@
 #include "cli/terminal/progress.hpp"
 #include "core/json.hpp"
 #include "experiment/worker.hpp"
+#include "experiment/workers.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/merge.hpp"
 #include "study/record.hpp"
@@ -81,14 +82,12 @@ std::vector<std::string> words(const std::string& text) {
   return result;
 }
 
-study::RunOptions run_options(const StudyOptions& options) {
+experiment::Workers workers_of(const StudyOptions& options) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  return {.worker_command = options.worker_command.empty()
-                                ? std::vector<std::string>{"/proc/self/exe", "study", "worker"}
-                                : words(options.worker_command),
-          .workers = options.workers > 0 ? static_cast<std::size_t>(options.workers) : cores,
-          .retry_failed = options.retry_failed,
-          .shard = options.shard};
+  return {options.worker_command.empty()
+              ? std::vector<std::string>{"/proc/self/exe", "study", "worker"}
+              : words(options.worker_command),
+          options.workers > 0 ? static_cast<std::size_t>(options.workers) : cores};
 }
 
 /// What was done, and how well the workers were used.
@@ -109,6 +108,8 @@ std::string to_text(const experiment::RunResult& result, std::size_t workers) {
 }
 
 void run(const StudyOptions& options, WorkKind kind) {
+  experiment::Workers workers = workers_of(options);
+  if (workers.is_servant()) return workers.serve();
   const study::DeclaredStudy declared = study::read_spec(options.spec_file);
   for (const std::string& remark : declared.remarks) print_message("warning: " + remark);
   const study::Study& study = declared.study;
@@ -118,7 +119,9 @@ void run(const StudyOptions& options, WorkKind kind) {
   print_answer(to_text(study, work, to_run, kind));
   if (options.dry_run) return;
 
-  const study::RunOptions how = run_options(options);
+  std::vector<std::filesystem::path> maps;
+  for (const study::StudyMap& map : study.maps) maps.push_back(map.file);
+  workers.require_files(maps);
   Progress progress("study", static_cast<double>(to_run));
   double ended = 0.0;
   const auto on_end = [&](const Json& record) {
@@ -129,10 +132,12 @@ void run(const StudyOptions& options, WorkKind kind) {
     }
     progress.update(++ended);
   };
-  const experiment::RunResult result = study::run_study(study, folder, kind, how, on_end);
+  const experiment::RunResult result = study::run_study(
+      study, folder, kind, {.retry_failed = options.retry_failed, .shard = options.shard},
+      workers.pool(), on_end);
   progress.finish();
   if (result.stopped_by) end_by(*result.stopped_by);
-  print_answer(to_text(result, std::min(how.workers, std::max<std::size_t>(to_run, 1))));
+  print_answer(to_text(result, std::min(workers.count(), std::max<std::size_t>(to_run, 1))));
 }
 
 void answer_queries() {
@@ -184,8 +189,10 @@ void add_run_arguments(CLI::App& command, StudyOptions& options) {
       ->type_name("DIR")
       ->required();
   command.add_flag("--dry-run", options.dry_run, "only count what is to be done");
-  add_whole_number(command, "--workers", options.workers, 0, 1024,
-                   "processes that work side by side; 0: one a core. Answers do not depend on it");
+  add_whole_number(
+      command, "--workers", options.workers, 0, 1024,
+      "processes that work side by side; 0: one a core; under mpirun one a rank but the "
+      "first. Answers do not depend on it");
   command
       .add_option("--worker-command", options.worker_command,
                   "what starts a worker, words with blanks between them [this program]")

@@ -5,7 +5,6 @@
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
-#include "experiment/process_pool.hpp"
 
 namespace nbvopt {
 namespace {
@@ -47,9 +46,7 @@ void read_worlds(std::span<Unit> units) {
 }
 
 experiment::RunResult run_reproduction(std::span<const Unit> units,
-                                       const ReproductionFolder& folder,
-                                       const std::vector<std::string>& worker_command,
-                                       std::size_t workers,
+                                       const ReproductionFolder& folder, experiment::Pool& pool,
                                        const std::function<void(const Json& record)>& on_record) {
   create_folder(folder.units());
   const FileLock lock(folder.records(), "run writes this reproduction");
@@ -60,7 +57,6 @@ experiment::RunResult run_reproduction(std::span<const Unit> units,
     if (!results[i].is_there()) to_run.push_back(i);
   }
   Work work(units);
-  experiment::ProcessPool pool(worker_command, workers);
   return experiment::run_units(work, to_run, kUnitTimeout_s, pool, records, on_record);
 }
 

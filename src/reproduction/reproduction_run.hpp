@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/coordinator.hpp"
+#include "experiment/pool.hpp"
 #include "reproduction/record.hpp"
 
 namespace nbvopt {
@@ -16,14 +17,12 @@ namespace nbvopt {
 /// cannot be read.
 void read_worlds(std::span<Unit> units);
 
-/// Runs the units without a result, whose worlds must have been read, on processes that the command
-/// starts, of one thread each. Every record is in the folder's file before the next; then
+/// Runs the units without a result, whose worlds must have been read, on workers of one
+/// thread each. Every record is in the folder's file before the next; then
 /// `on_record` is told of it. Throws InputError when the folder is used by another run or cannot be
 /// written, and as experiment::run_units().
 experiment::RunResult run_reproduction(std::span<const Unit> units,
-                                       const ReproductionFolder& folder,
-                                       const std::vector<std::string>& worker_command,
-                                       std::size_t workers,
+                                       const ReproductionFolder& folder, experiment::Pool& pool,
                                        const std::function<void(const Json& record)>& on_record);
 
 }  // namespace nbvopt

@@ -6,7 +6,6 @@
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
-#include "experiment/process_pool.hpp"
 #include "experiment/record_file.hpp"
 #include "study/fingerprints.hpp"
 #include "study/record.hpp"
@@ -101,7 +100,7 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 }
 
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
-                                const RunOptions& options,
+                                const RunOptions& options, experiment::Pool& pool,
                                 const std::function<void(const Json& record)>& on_end) {
   create_folder(folder.root);
   const FileLock lock(folder.study(), "run writes this study");
@@ -116,7 +115,6 @@ experiment::RunResult run_study(const Study& study, const StudyFolder& folder, W
       if (unit == finished.end() || (unit->second && options.retry_failed)) to_do.push_back(i);
     }
   }
-  experiment::ProcessPool pool(options.worker_command, options.workers);
   return experiment::run_units(
       work, to_do, kind == WorkKind::query ? study.unit_timeout_s : study.reference_timeout_s, pool,
       records, on_end);

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "experiment/coordinator.hpp"
+#include "experiment/pool.hpp"
 #include "study/study_file.hpp"
 
 namespace nbvopt::study {
@@ -25,8 +26,6 @@ struct Shard {
 };
 
 struct RunOptions {
-  std::vector<std::string> worker_command;
-  std::size_t workers = 1;
   bool retry_failed = false;  ///< whether units that have failed count as not done
   Shard shard = {};
 };
@@ -42,7 +41,7 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 /// InputError when the folder is used by another run or cannot be written, and as
 /// experiment::run_units().
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
-                                const RunOptions& options,
+                                const RunOptions& options, experiment::Pool& pool,
                                 const std::function<void(const Json& record)>& on_end);
 
 }  // namespace nbvopt::study

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/text_file.hpp"
+#include "experiment/process_pool.hpp"
 #include "nbvopt/core/error.hpp"
 #include "reproduction/room_worlds.hpp"
 #include "reproduction/text.hpp"
@@ -56,13 +57,13 @@ class ReproductionRun : public testing::Test {
     std::vector<std::string> command{NBVOPT_ODD_SIMULATOR, calls};
     command.insert(command.end(), deeds.begin(), deeds.end());
     failures.clear();
-    result = run_reproduction(units_of(options), options.folder, command, workers,
-                              [this](const Json& record) {
-                                if (record.contains("failure")) {
-                                  failures[record.at("name")] = record.at("failure");
-                                }
-                                on_record(record);
-                              });
+    experiment::ProcessPool pool(command, workers);
+    result = run_reproduction(units_of(options), options.folder, pool, [this](const Json& record) {
+      if (record.contains("failure")) {
+        failures[record.at("name")] = record.at("failure");
+      }
+      on_record(record);
+    });
     std::vector<std::string> asked;
     std::ifstream in(calls);
     for (std::string line; std::getline(in, line);) asked.push_back(line);
@@ -210,8 +211,8 @@ TEST_F(ReproductionRun, RefusesAFolderInUse) {
   on_record = [&](const Json&) {
     if (message.empty()) {
       message = message_of<InputError>([&] {
-        run_reproduction(units_of(options()), options().folder, {"/bin/false"}, 1,
-                         [](const Json&) {});
+        experiment::ProcessPool none({"/bin/false"}, 1);
+        run_reproduction(units_of(options()), options().folder, none, [](const Json&) {});
       });
     }
   };

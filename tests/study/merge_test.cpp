@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/text_file.hpp"
+#include "experiment/process_pool.hpp"
 #include "experiment/record_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
@@ -28,9 +29,8 @@ class MergedStudy : public testing::Test {
     return run(files.read(test::kSmallSpec), name, shard);
   }
   StudyFolder run(const Study& study, const std::string& name, const Shard& shard = {}) const {
-    run_study(study, folder(name), WorkKind::query,
-              {.worker_command = {NBVOPT_ODD_WORKER}, .workers = 2, .shard = shard},
-              [](const Json&) {});
+    experiment::ProcessPool pool({NBVOPT_ODD_WORKER}, 2);
+    run_study(study, folder(name), WorkKind::query, {.shard = shard}, pool, [](const Json&) {});
     return folder(name);
   }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/text_file.hpp"
+#include "experiment/process_pool.hpp"
 #include "experiment/record_file.hpp"
 #include "nbvopt/core/error.hpp"
 #include "study/record.hpp"
@@ -25,10 +26,16 @@ class StudyRun : public testing::Test {
  protected:
   experiment::RunResult run(const Study& study, const std::string& name, std::size_t workers = 2,
                             WorkKind kind = WorkKind::query, bool retry_failed = false) {
-    return run_study(
-        study, folder(name), kind,
-        {.worker_command = {NBVOPT_ODD_WORKER}, .workers = workers, .retry_failed = retry_failed},
-        [this](const Json& record) { on_end(record); });
+    experiment::ProcessPool pool({NBVOPT_ODD_WORKER}, workers);
+    return run_study(study, folder(name), kind, {.retry_failed = retry_failed}, pool,
+                     [this](const Json& record) { on_end(record); });
+  }
+
+  /// The same with workers that a command starts, into the folder "out".
+  experiment::RunResult run_with(const std::vector<std::string>& command, const Study& study,
+                                 std::size_t workers = 1) {
+    experiment::ProcessPool pool(command, workers);
+    return run_study(study, folder("out"), WorkKind::query, {}, pool, on_end);
   }
 
   StudyFolder folder(const std::string& name) const { return {files.folder / name}; }
@@ -173,10 +180,7 @@ TEST_F(StudyRun, RunsWhatHasFailedAgainWhenAsked) {
 TEST_F(StudyRun, RefusesAWorkerThatIsNone) {
   const Study study = files.read(test::kSmallSpec);
   const auto message_with = [&](const std::vector<std::string>& command) {
-    return test::message_of<InputError>([&] {
-      run_study(study, folder("out"), WorkKind::query, {.worker_command = command, .workers = 2},
-                on_end);
-    });
+    return test::message_of<InputError>([&] { run_with(command, study, 2); });
   };
   EXPECT_THAT(message_with({"/nowhere/worker"}),
               AllOf(HasSubstr("/nowhere/worker"), HasSubstr("cannot be started")));
@@ -197,10 +201,7 @@ std::vector<std::string> shell_worker(const std::string& script) {
 TEST_F(StudyRun, TakesAnswersOfTheUnitAtWorkOnly) {
   const Study study = grids("[0.3]");
   const auto message_with = [&](const std::string& script) {
-    return test::message_of<InputError>([&] {
-      run_study(study, folder("out"), WorkKind::query,
-                {.worker_command = shell_worker(script), .workers = 1}, on_end);
-    });
+    return test::message_of<InputError>([&] { run_with(shell_worker(script), study); });
   };
   for (const char* script :
        {R"(echo '{"unit":"another","answer":{},"busy_ms":1}')",
@@ -218,9 +219,7 @@ TEST_F(StudyRun, AUnitWhoseWorkerWasKilledOnceIsRunAgain) {
   const std::string mark = files.folder / "mark";
   const std::string script = "test -e '" + mark + "' || { : > '" + mark + "'; kill -9 $$; }; " +
                              R"(echo "{\"unit\":\"$id\",\"failure\":\"tired\",\"busy_ms\":1}")";
-  const experiment::RunResult result =
-      run_study(study, folder("out"), WorkKind::query,
-                {.worker_command = shell_worker(script), .workers = 1}, on_end);
+  const experiment::RunResult result = run_with(shell_worker(script), study);
   EXPECT_EQ(result.finished, unit_count(study));
   for (const study::Run& run : read_results(study, folder("out")).runs) {
     EXPECT_EQ(run.failure, "tired");
@@ -229,9 +228,7 @@ TEST_F(StudyRun, AUnitWhoseWorkerWasKilledOnceIsRunAgain) {
 
 TEST_F(StudyRun, AWorkerThatTurnsSilentIsReplaced) {
   const Study study = grids("[0.3]");
-  const experiment::RunResult result =
-      run_study(study, folder("out"), WorkKind::query,
-                {.worker_command = shell_worker("exec 1>&-; sleep 100"), .workers = 2}, on_end);
+  const experiment::RunResult result = run_with(shell_worker("exec 1>&-; sleep 100"), study, 2);
   EXPECT_EQ(result.failed, unit_count(study));
   EXPECT_THAT(read_results(study, folder("out")).runs[0].failure,
               HasSubstr("its worker ended, twice: "));

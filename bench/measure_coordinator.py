@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""How many units a second a study's coordinator hands out, and its memory.
+
+    bench/measure_coordinator.py NBVOPT [--units 100000 1000000] [--sleep-ms 0 5] [--ranks 2 3 5]
+
+Workers only sleep. Prints a row a run: of processes of this machine, then under mpirun, which runs
+one worker a rank but the first.
+"""
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SEARCHES = 10  # five of the spec's and the paper's, two budgets
+WORKER = pathlib.Path(__file__).with_name("sleeping_worker.py")
+OFFICE = WORKER.parent.parent / "datasets" / "office_partial.ot"
+
+
+def spec(units):
+    starts = 50
+    seeds = max(1, units // (starts * SEARCHES))
+    return (
+        f"maps: [{OFFICE}]\nstarts: {{sampled: {{count: {starts}}}}}\nmotion_times_s: [0.5]\n"
+        "solvers: [{solver: random}]\nbudgets: {max_evaluations: [20, 100]}\n"
+        f"seeds: [{', '.join(map(str, range(1, seeds + 1)))}]\n"
+    )
+
+
+def measure(nbvopt, units, sleep_ms, start, workers):
+    with tempfile.TemporaryDirectory() as folder:
+        spec_file = pathlib.Path(folder, "spec.yaml")
+        spec_file.write_text(spec(units))
+        command = ["study", "run", spec_file, "--out", folder + "/out",
+                   "--worker-command", f"{sys.executable} {WORKER} {sleep_ms}"]
+        if not start:
+            command += ["--workers", str(workers)]
+        run = subprocess.Popen([*start, nbvopt, *command], stdout=subprocess.PIPE,
+                               stderr=subprocess.DEVNULL, text=True)
+        # The coordinator is the first process of nbvopt below the one started.
+        peak_mib = 0.0
+        while run.poll() is None:
+            peak_mib = max(peak_mib, coordinator_mib(run.pid, pathlib.Path(nbvopt).name, bool(start)))
+            try:
+                run.wait(0.2)
+            except subprocess.TimeoutExpired:
+                pass
+        text = run.stdout.read()
+    done, seconds = re.search(r"(\d+) units in ([\d.]+) s", text).groups()
+    busy = re.search(r"busy for ([\d.]+) %", text).group(1)
+    how = f"mpirun, {workers + 1} ranks" if start else "processes"
+    rate = int(done) / float(seconds)
+    print(f"| {how} | {workers} | {sleep_ms:g} | {int(done):,} | {rate:,.0f} | {busy} % "
+          f"| {peak_mib:.0f} |", flush=True)
+
+
+def coordinator_mib(pid, name, is_below):
+    """The resident memory of the process, or of its first child of that name, MiB."""
+    try:
+        if is_below:
+            children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+            pid = next(c for c in children
+                       if pathlib.Path(f"/proc/{c}/comm").read_text().strip() == name[:15])
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+        return int(re.search(r"VmRSS:\s+(\d+)", status).group(1)) / 1024
+    except (OSError, StopIteration, AttributeError):
+        return 0.0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("nbvopt")
+    parser.add_argument("--units", type=int, nargs="+", default=[100_000])
+    parser.add_argument("--sleep-ms", type=float, nargs="+", default=[0])
+    parser.add_argument("--ranks", type=int, nargs="*", default=[2, 3, 5])
+    arguments = parser.parse_args()
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    print("| engine | workers | ms a unit | units | units/s | workers busy | coordinator, MiB |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for units in arguments.units:
+        for sleep_ms in arguments.sleep_ms:
+            for workers in (1, 2, 4):
+                measure(arguments.nbvopt, units, sleep_ms, [], workers)
+            for ranks in arguments.ranks:
+                mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks)]
+                measure(arguments.nbvopt, units, sleep_ms, mpirun, ranks - 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+// Workers on other machines: a process of each rank of MPI but the first, which coordinates them.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/mpi/mpi_session.hpp"
+#include "experiment/pool.hpp"
+
+namespace nbvopt::experiment {
+
+/// The workers as the first rank sees them. Worker i is that of rank i + 1, where serve_rank()
+/// starts it, hands it its units and ends it when it hangs. A rank that ends takes all others with
+/// it, as MPI has it; what has been recorded stays.
+class MpiPool final : public Pool {
+ public:
+  /// The session must outlive it.
+  explicit MpiPool(const MpiSession& session);
+  MpiPool(const MpiPool&) = delete;
+  MpiPool& operator=(const MpiPool&) = delete;
+  /// Sends all ranks home.
+  ~MpiPool() override;
+
+  /// Throws InputError that names a file which a rank cannot read, and the rank's machine.
+  void require_files(std::span<const std::filesystem::path> files);
+
+  std::size_t size() const override { return workers_.size(); }
+  void start(std::size_t worker) override;
+  void hand_out(std::size_t worker, const Unit& unit) override;
+  void stop(std::size_t worker) override;
+  std::vector<PoolEvent> wait(Clock::time_point until, int wake) override;
+
+ private:
+  struct Worker {
+    std::uint64_t life = 0;  ///< how often it was started; what an earlier one says is too late
+    std::string unit;        ///< the id of the one that it is at
+  };
+
+  void take(const MpiSession::Message& message, std::vector<PoolEvent>& events);
+
+  const MpiSession& session_;
+  std::vector<Worker> workers_;
+};
+
+/// What a rank but the first does: it serves the first one's pool with a worker that the command
+/// starts, until it is sent home.
+void serve_rank(const MpiSession& session, const std::vector<std::string>& command);
+
+}  // namespace nbvopt::experiment
