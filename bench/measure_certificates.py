@@ -4,9 +4,8 @@
     PYTHONPATH=build/release/python bench/measure_certificates.py STUDY [--limit-s S ...] [--every N]
         [--gain expected]
 
-STUDY is the folder of a study (`nbvopt study run --dry-run SPEC --out STUDY` is enough): its maps,
-starts and motion times are the questions, of which every N-th is asked, on one core. Prints a table
-with a row a time limit.
+STUDY is the folder of a study that was run, or begun: its maps, starts and motion times are the
+questions, of which every N-th is asked, on one core. Prints a table with a row a time limit.
 """
 import argparse
 import json
