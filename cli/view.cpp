@@ -23,6 +23,7 @@ struct ViewOptions {
   MapInput map;
   std::string out_file;
   std::string answer_file;
+  std::string episode_file;
   std::vector<double> box_m;  ///< two corners; empty: all of the map
   ViewArguments view;
 };
@@ -39,8 +40,8 @@ void compare(const AnswerFile& answer, const ViewPlanner& planner, const std::st
   const double gain =
       planner.evaluate(T_map_sensor(answer.request, planner.mast(), answer.joints)).gain;
   if (std::abs(gain - answer.gain) <= 1e-6 * std::max(1.0, std::abs(gain))) return;
-  print_message("warning: " + file + ": its view gains " + format_number(answer.gain) +
-                ", here it gains " + format_number(gain) +
+  print_message("warning: " + file + ": its view gains " + decimal(answer.gain, 1) +
+                ", here it gains " + decimal(gain, 1) +
                 ": give the map, the robot and the gain that the answer is for");
 }
 
@@ -59,6 +60,10 @@ void run_view(const ViewOptions& options) {
   const ThreadLimit thread_limit(options.view);
   UncertaintyMap map = read_map_input(options.map);
   MapPage page(options.map.file, map, key_box(options.box_m, map.lattice()));
+  if (!options.episode_file.empty()) {
+    page.add_episode(parse_episode_file(read_text_file(options.episode_file), options.episode_file),
+                     *VoxelGrid::lazy(map), make_robot(options.view));
+  }
   if (!options.answer_file.empty()) add_answer(page, options, std::move(map));
   const std::string html = page.html();
   write_file_atomically(options.out_file, html);
@@ -79,6 +84,9 @@ void set_up_view(CLI::App& app) {
   view->add_option("--answer", options->answer_file,
                    "what nbvopt query --json wrote: show the robot, its view and the chosen one")
       ->type_name("FILE");
+  view->add_option("--episode", options->episode_file,
+                   "what nbvopt simulate --metrics wrote while it made the map: show the drive")
+      ->type_name("FILE");
   view->add_option_function<std::string>(
           "--box",
           [options](const std::string& text) {
@@ -88,7 +96,8 @@ void set_up_view(CLI::App& app) {
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   add_view_arguments(*view, options->view);
   view->footer(
-      "The robot, the evaluator and the gain are those that the answer was asked with.\n"
+      "The robot, the evaluator and the gain are those that the answer was asked with,\n"
+      "the robot of an episode the one that drove it.\n"
       "Example: nbvopt view map.ot --answer answer.json -o view.html");
   view->callback([options] { run_view(*options); });
 }

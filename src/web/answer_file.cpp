@@ -1,49 +1,26 @@
 #include "web/answer_file.hpp"
 
-#include "core/json.hpp"
-#include "nbvopt/core/error.hpp"
+#include "web/members.hpp"
 
 namespace nbvopt {
 namespace {
 
-const Json& member(const Json& object, const char* key, const std::string& where) {
-  const auto found = object_in(object, where).find(key);
-  if (found == object.end()) {
-    throw InputError(where + ": '" + key + "' is missing, give what nbvopt query --json wrote");
-  }
-  return *found;
+JointPosition joints(const Members& object) {
+  return {.pan_rad = object.number("pan"),
+          .tilt_rad = object.number("tilt"),
+          .height_m = object.number("height")};
 }
 
-double number(const Json& object, const char* key, const std::string& where) {
-  return number_in(member(object, key, where), where + ": '" + key + "'");
-}
-
-std::string text(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_string()) throw InputError(where + ": '" + key + "' must be a text");
-  return value.get<std::string>();
-}
-
-JointPosition joints(const Json& object, const std::string& where) {
-  return {.pan_rad = number(object, "pan", where),
-          .tilt_rad = number(object, "tilt", where),
-          .height_m = number(object, "height", where)};
-}
-
-PlanRequest request(const Json& object, const std::string& where) {
-  const Json& base = member(object, "base", where);
-  const std::string where_base = where + ".base";
+PlanRequest request(const Members& object) {
+  const Members base = object.members("base");
   PlanRequest request;
-  request.T_map_base = base_pose(number(base, "x", where_base), number(base, "y", where_base),
-                                 number(base, "z", where_base), number(base, "yaw", where_base));
-  request.joints = joints(object, where);
-  request.motion_time_s = number(object, "motion_time", where);
-  if (object.contains("base_velocity")) {
-    const Json& velocity = object["base_velocity"];
-    const std::string where_velocity = where + ".base_velocity";
-    request.base_twist = {number(velocity, "vx", where_velocity),
-                          number(velocity, "vy", where_velocity),
-                          number(velocity, "wz", where_velocity)};
+  request.T_map_base =
+      base_pose(base.number("x"), base.number("y"), base.number("z"), base.number("yaw"));
+  request.joints = joints(object);
+  request.motion_time_s = object.number("motion_time");
+  if (object.object.contains("base_velocity")) {
+    const Members velocity = object.members("base_velocity");
+    request.base_twist = {velocity.number("vx"), velocity.number("vy"), velocity.number("wz")};
   }
   return request;
 }
@@ -51,12 +28,13 @@ PlanRequest request(const Json& object, const std::string& where) {
 }  // namespace
 
 AnswerFile parse_answer_file(const std::string& json, const std::string& name) {
-  const Json answer = parse_json(json, name);
-  return {.request = request(member(answer, "request", name), name + ": request"),
-          .joints = joints(answer, name),
-          .gain = number(answer, "gain", name),
-          .current_gain = number(answer, "current_gain", name),
-          .why = text(answer, "status", name) + ": " + text(answer, "message", name)};
+  const Json file = parse_json(json, name);
+  const Members answer{file, name, "nbvopt query --json"};
+  return {.request = request(answer.members("request")),
+          .joints = joints(answer),
+          .gain = answer.number("gain"),
+          .current_gain = answer.number("current_gain"),
+          .why = answer.text("status") + ": " + answer.text("message")};
 }
 
 }  // namespace nbvopt

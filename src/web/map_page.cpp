@@ -2,8 +2,8 @@
 
 #include <string_view>
 
+#include "web/first_captures.hpp"
 #include "web/packed.hpp"
-#include "web/surface_mesh.hpp"
 #include "web/voxel_gains.hpp"
 
 namespace nbvopt {
@@ -36,14 +36,26 @@ Json view_json(const Transform& T_map_base, const Transform& T_map_sensor,
           {"gain", gain}};
 }
 
+/// Two bytes a face: the first capture that saw its voxel, the last number where none did.
+std::string packed_captures(const FaceSet& set,
+                            const std::unordered_map<std::uint64_t, std::uint16_t>& first) {
+  constexpr std::uint16_t kNever = 0xFFFF;
+  std::vector<std::uint16_t> captures;
+  captures.reserve(set.faces);
+  for (const FaceRectangle& rectangle : set.rectangles) {
+    for_each_face(rectangle, [&](VoxelKey key) {
+      const auto found = first.find(packed(key));
+      captures.push_back(found == first.end() ? kNever : found->second);
+    });
+  }
+  return packed_array(captures);
+}
+
 }  // namespace
 
 MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
                  const std::optional<KeyBox>& box)
-    : name_(name) {
-  const SurfaceMesh mesh = surface_mesh(map, box);
-  faces_ = mesh.seen.faces + mesh.backs.faces;
-  rectangles_ = mesh.seen.rectangles.size() + mesh.backs.rectangles.size();
+    : name_(name), mesh_(surface_mesh(map, box)) {
   const MapCounts counts = map.counts();
   data_["map"] = {{"name", name},
                   {"resolution_m", map.resolution_m()},
@@ -57,9 +69,9 @@ MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
     blocks_.push_back({id, packed_rectangles(set.rectangles)});
     blocks_.push_back({id + "-values", packed_bytes({values, set.values.size()})});
   };
-  add("seen", mesh.seen);
-  add("backs", mesh.backs);
-  add("frontier", mesh.frontier);
+  add("seen", mesh_.seen);
+  add("backs", mesh_.backs);
+  add("frontier", mesh_.frontier);
 }
 
 void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
@@ -106,6 +118,29 @@ void MapPage::add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& 
   }
   data_["voxel_gains"] = {{"count", gains.size()}};
   blocks_.push_back({"voxel-gains", packed_numbers(numbers)});
+}
+
+void MapPage::add_episode(const std::vector<EpisodeCapture>& captures, const VoxelGrid& grid,
+                          const Robot& robot) {
+  const Mast mast(robot.mast);
+  std::vector<Transform> poses_T_map_sensor;
+  std::vector<double> numbers;
+  for (const EpisodeCapture& capture : captures) {
+    const Transform T_map_sensor = capture.T_map_base * mast.T_base_sensor(capture.joints);
+    poses_T_map_sensor.push_back(T_map_sensor);
+    numbers.insert(numbers.end(), {capture.time_s, capture.information, capture.predicted_gain,
+                                   capture.realised_gain, capture.joints.height_m});
+    for (const Transform& pose : {capture.T_map_base, T_map_sensor}) {
+      numbers.insert(numbers.end(), pose.matrix().data(), pose.matrix().data() + 16);
+    }
+  }
+  data_["camera"] = camera_json(robot.sensor);
+  data_["episode"] = {{"captures", captures.size()}};
+  blocks_.push_back({"captures", packed_numbers(numbers)});
+  const auto first = first_captures(grid, robot.sensor, poses_T_map_sensor);
+  for (const auto& [id, set] : {std::pair{"seen", &mesh_.seen}, std::pair{"backs", &mesh_.backs}}) {
+    blocks_.push_back({std::string(id) + "-captures", packed_captures(*set, first)});
+  }
 }
 
 std::string MapPage::html() const { return page_html(name_, data_, blocks_); }

@@ -8,7 +8,9 @@
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/planner/view_planner.hpp"
 #include "web/answer_file.hpp"
+#include "web/episode_file.hpp"
 #include "web/page.hpp"
+#include "web/surface_mesh.hpp"
 
 namespace nbvopt {
 
@@ -24,8 +26,17 @@ class MapPage {
   /// the map. Throws InputError where the answer's request cannot be one to the planner's robot.
   void add_answer(const AnswerFile& answer, const ViewPlanner& planner);
 
-  std::uint64_t faces() const { return faces_; }            ///< of occupied voxels
-  std::uint64_t rectangles() const { return rectangles_; }  ///< that they were merged into
+  /// The drive of an episode whose map this is, and when it first saw which voxel; `grid` is the
+  /// map's. Throws InputError as first_captures() does.
+  void add_episode(const std::vector<EpisodeCapture>& captures, const VoxelGrid& grid,
+                   const Robot& robot);
+
+  /// Of occupied voxels.
+  std::uint64_t faces() const { return mesh_.seen.faces + mesh_.backs.faces; }
+  /// That these were merged into.
+  std::uint64_t rectangles() const {
+    return mesh_.seen.rectangles.size() + mesh_.backs.rectangles.size();
+  }
 
   std::string html() const;
 
@@ -34,10 +45,9 @@ class MapPage {
   void add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner);
 
   std::string name_;
+  SurfaceMesh mesh_;
   Json data_;
   std::vector<PageBlock> blocks_;
-  std::uint64_t faces_ = 0;
-  std::uint64_t rectangles_ = 0;
 };
 
 }  // namespace nbvopt

@@ -13,12 +13,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "pages carry little-endian numbers");
 
-template <class Number>
-std::string packed_array(const std::vector<Number>& numbers) {
-  return packed_bytes(
-      {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
-}
-
 }  // namespace
 
 std::string packed_bytes(std::string_view bytes) {

@@ -13,6 +13,13 @@ namespace nbvopt {
 /// The bytes, packed; empty for none.
 std::string packed_bytes(std::string_view bytes);
 
+/// Numbers as they lie in memory.
+template <class Number>
+std::string packed_array(const std::vector<Number>& numbers) {
+  return packed_bytes(
+      {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
+}
+
 /// Four 16-bit numbers a rectangle: x, y, z of its least voxel, and width - 1 (5 bits),
 /// height - 1 (5 bits) and normal (3 bits) from the lowest bit on.
 std::string packed_rectangles(std::span<const FaceRectangle> rectangles);

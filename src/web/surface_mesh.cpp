@@ -214,24 +214,23 @@ class Mesher {
     const int axis = axis_of(normal);
     for (int place = 0; place < kBrickSize; ++place) {
       cut_into_rectangles(plane_of(faces, axis, place), [&](int u, int v, int width, int height) {
-        const auto key = [&](int du, int dv) {
-          std::array<int, 3> k{brick.x * kBrickSize, brick.y * kBrickSize, brick.z * kBrickSize};
-          k[axis] += place;
-          k[(axis + 1) % 3] += u + du;
-          k[(axis + 2) % 3] += v + dv;
-          return VoxelKey{static_cast<std::uint16_t>(k[0]), static_cast<std::uint16_t>(k[1]),
-                          static_cast<std::uint16_t>(k[2])};
-        };
-        set.rectangles.push_back({key(0, 0), normal, static_cast<std::uint8_t>(width),
-                                  static_cast<std::uint8_t>(height)});
+        std::array<int, 3> least{brick.x * kBrickSize, brick.y * kBrickSize, brick.z * kBrickSize};
+        least[axis] += place;
+        least[(axis + 1) % 3] += u;
+        least[(axis + 2) % 3] += v;
+        const FaceRectangle rectangle{
+            {static_cast<std::uint16_t>(least[0]), static_cast<std::uint16_t>(least[1]),
+             static_cast<std::uint16_t>(least[2])},
+            normal,
+            static_cast<std::uint8_t>(width),
+            static_cast<std::uint8_t>(height)};
+        set.rectangles.push_back(rectangle);
         set.faces += static_cast<std::uint64_t>(width) * height;
         if (values_of == nullptr) return;
-        for (int dv = 0; dv < height; ++dv) {
-          for (int du = 0; du < width; ++du) {
-            set.values.push_back(
-                value_of(values_of->uncertainty_of_occupied(key(du, dv), kUnknownUncertainty)));
-          }
-        }
+        for_each_face(rectangle, [&](VoxelKey key) {
+          set.values.push_back(
+              value_of(values_of->uncertainty_of_occupied(key, kUnknownUncertainty)));
+        });
       });
     }
     if (set.faces > kMostFaces) refuse(kMostFaces, "faces");

@@ -5,6 +5,7 @@
 // value of its own, so that merging loses no colour.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -32,8 +33,22 @@ struct FaceRectangle {
   bool operator==(const FaceRectangle&) const = default;
 };
 
-/// Rectangles, and of each of their faces a value: rectangle after rectangle, row after row along
-/// the width.
+/// Calls visit(voxel) for each face of a rectangle, row after row along the width.
+template <typename Visit>
+void for_each_face(const FaceRectangle& rectangle, const Visit& visit) {
+  const int axis = axis_of(rectangle.normal);
+  for (int v = 0; v < rectangle.height; ++v) {
+    for (int u = 0; u < rectangle.width; ++u) {
+      std::array<int, 3> key{rectangle.least.x, rectangle.least.y, rectangle.least.z};
+      key[(axis + 1) % 3] += u;
+      key[(axis + 2) % 3] += v;
+      visit(VoxelKey{static_cast<std::uint16_t>(key[0]), static_cast<std::uint16_t>(key[1]),
+                     static_cast<std::uint16_t>(key[2])});
+    }
+  }
+}
+
+/// Rectangles, and of each of their faces a value in the order of for_each_face().
 struct FaceSet {
   std::vector<FaceRectangle> rectangles;
   /// u of the face's voxel in 255 steps, rounded down, so that 255 is 1 alone; none in a frontier.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/query_command.hpp"
@@ -52,6 +53,22 @@ TEST_F(View, TellsThatAnAnswerIsToSomethingElse) {
   EXPECT_THAT(result.err, HasSubstr("give the map, the robot and the gain that the answer is for"));
 }
 
+TEST_F(View, ShowsAnEpisode) {
+  const std::string metrics = folder.write(
+      "m.jsonl",
+      R"({"time_s": 0, "base": [0, 0, 0, 0], "pan": 0, "tilt": 0, "height": 0.4, "information": 1,
+          "predicted_gain": null, "realised_gain": null})");
+  const ProcessResult split = nbvopt_run({"view", map_file, "--episode", metrics, "-o", page_file});
+  expect_refusal(split, 3, "m.jsonl: line 1: not valid JSON");
+  std::string line = read_text_file(metrics);
+  line.erase(std::remove(line.begin(), line.end(), '\n'), line.end());
+  folder.write("m.jsonl", line);
+  const ProcessResult result =
+      nbvopt_run({"view", map_file, "--episode", metrics, "-o", page_file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(read_text_file(page_file), HasSubstr("\"episode\":{\"captures\":1}"));
+}
+
 TEST_F(View, OfABoxHasItsFacesAlone) {
   // Of the wall 3 x 3 voxels: their fronts, their backs, and three from below.
   const ProcessResult result =
@@ -63,6 +80,7 @@ TEST_F(View, RefusesWhatItCannotShow) {
   expect_no_page({"--box", "1,2,3"}, 2, "X0,Y0,Z0,X1,Y1,Z1");
   expect_no_page({"--answer", folder / "none.json"}, 3, "none.json");
   expect_no_page({"--answer", map_file}, 3, "not valid JSON");
+  expect_no_page({"--episode", map_file}, 3, "line 1: not valid JSON");
   expect_no_page({"--answer", folder.write("a.json", "{}")}, 3, "'request' is missing");
   expect_refusal(nbvopt_run({"view", map_file}), 2, "--out is required");
   expect_refusal(nbvopt_run({"view", map_file, "-o", folder / "none/view.html"}), 3, "none");

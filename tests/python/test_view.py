@@ -13,6 +13,7 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     webdriver = None
@@ -146,6 +147,30 @@ class ViewTest(unittest.TestCase):
         self.assertRegex(self.text("landscape-value"),
                          r"^pan \d+\.\d\d, tilt -?\d+\.\d\d rad: gain \d+\.\d$")
         self.assertGreater(self.look()["drawn"], before["drawn"])  # such a view is outlined
+        self.assert_quiet()
+
+    def test_goes_through_an_episode(self):
+        captures = [{"time_s": 0.5 * i, "base": [1.9, 2.6, 0, 1.57], "pan": 0.7 * i, "tilt": 0,
+                     "height": 0.4, "information": 100 * (i + 1), "predicted_gain": None,
+                     "realised_gain": None} for i in range(3)]
+        metrics = pathlib.Path(self.folder.name, "metrics.jsonl")
+        metrics.write_text("".join(json.dumps(c) + "\n" for c in captures), encoding="utf-8")
+        page = f"{self.folder.name}/episode.html"
+        run_cli("view", OFFICE, "--episode", str(metrics), "-o", page)
+        self.open(page)
+        self.click("show-drive")
+        self.assertIn("capture 3 of 3, 1.0 s: information 300", self.text("capture-facts"))
+        drawn = [self.look()["drawn"]]
+        slider = self.browser.find_element(By.ID, "capture")
+        for number in (2, 1):
+            slider.send_keys(Keys.ARROW_LEFT)
+            self.assertIn(f"capture {number} of 3", self.text("capture-facts"))
+            drawn.append(self.look()["drawn"])
+        self.assertGreater(drawn[0], drawn[1] + 50)  # the map was smaller
+        self.assertGreater(drawn[1], drawn[2] + 50)
+        self.click("play")
+        WebDriverWait(self.browser, 10, 0.05).until(
+            lambda _: "capture 3 of 3" in self.text("capture-facts"))
         self.assert_quiet()
 
     def test_runs_no_text(self):

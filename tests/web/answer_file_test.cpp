@@ -50,7 +50,7 @@ TEST(AnswerFile, NamesWhatIsWrong) {
   EXPECT_THAT(refusal_of("{}"), HasSubstr("give what nbvopt query --json wrote"));
   Json wrong = answer();
   wrong["request"]["base"]["yaw"] = "north";
-  EXPECT_THAT(refusal_of(wrong.dump()), HasSubstr("a.json: request.base: 'yaw' must be a number"));
+  EXPECT_THAT(refusal_of(wrong.dump()), HasSubstr("a.json.request.base: 'yaw' must be a number"));
   wrong = answer();
   wrong["gain"] = nullptr;
   EXPECT_THAT(refusal_of(wrong.dump()), HasSubstr("'gain' must be a number"));

@@ -38,6 +38,8 @@ precision highp float;
 precision highp sampler2D;
 uniform sampler2D values;  // a byte a face, a row of valuesWidth after the other
 uniform sampler2D ramp;
+uniform sampler2D captures; // of each face the first that saw it, in the same places
+uniform float lastCapture; // faces that later ones saw first are left out; below 0: none are
 uniform float valuesWidth;
 uniform vec2 heights;      // of the ramp's ends
 uniform float byHeight;    // 1: the height, 0: the value
@@ -60,7 +62,9 @@ void main() {
   vec2 cell = clamp(floor(face), vec2(0.0), size - 1.0);
   float index = first + cell.y * size.x + cell.x;
   float row = floor((index + 0.5) / valuesWidth);
-  float value = texelFetch(values, ivec2(index - row * valuesWidth, row), 0).r;
+  ivec2 texel = ivec2(index - row * valuesWidth, row);
+  if (lastCapture >= 0.0 && texelFetch(captures, texel, 0).r > lastCapture) discard;
+  float value = texelFetch(values, texel, 0).r;
   float share = byHeight > 0.5 ? (height - heights.x) / max(heights.y - heights.x, 1e-3) : value;
   vec3 colour = texelFetch(ramp, ivec2(clamp(share, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
   colour = mix(colour, vec3(0.55), fade);
@@ -76,18 +80,22 @@ void main() {
 const kCorners = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
 
 /** A texture of bytes or colours that is read by whole texels. */
-faces.texture = (bytes, width, rows, format) => {
-  const texture = new THREE.DataTexture(bytes, width, rows, format, THREE.UnsignedByteType);
+faces.texture = (texels, width, rows, format, type = THREE.UnsignedByteType) => {
+  const texture = new THREE.DataTexture(texels, width, rows, format, type);
   texture.magFilter = texture.minFilter = THREE.NearestFilter;
   texture.unpackAlignment = 1;
   texture.needsUpdate = true;
   return texture;
 };
 
-/** Unpacks a set of faces: its rectangles, the number of each one's first face, their values. */
+/**
+ * Unpacks a set of faces: its rectangles, the number of each one's first face, their values and, of
+ * an episode, the captures that first saw them.
+ */
 faces.unpack = async id => {
   const rectangles = new Uint16Array(await page.bytes(id));
   const values = new Uint8Array(await page.bytes(id + "-values"));
+  const captures = new Uint16Array(await page.bytes(id + "-captures"));
   const firstFace = new Float32Array(rectangles.length / 4);
   let next = 0;
   for (let i = 0; i < firstFace.length; ++i) {
@@ -95,7 +103,7 @@ faces.unpack = async id => {
     const shape = rectangles[4 * i + 3];
     next += (1 + (shape & 31)) * (1 + (shape >> 5 & 31));
   }
-  return {rectangles, firstFace, values, count: firstFace.length};
+  return {rectangles, firstFace, values, captures, count: firstFace.length};
 };
 
 /** The settings that all sets share. */
@@ -106,6 +114,7 @@ faces.sharedUniforms = () => ({
   heights: {value: new THREE.Vector2(0, 1)},
   byHeight: {value: 0},
   cutHeight: {value: 1e9},
+  lastCapture: {value: -1},
   fade: {value: 0},
 });
 
@@ -121,6 +130,8 @@ faces.mesh = (set, shared, look = {}) => {
   const rows = Math.max(1, Math.ceil(set.values.length / width));
   const values = new Uint8Array(width * rows);
   values.set(set.values);
+  const captures = new Float32Array(set.captures.length > 0 ? width * rows : 1);
+  captures.set(set.captures);
   const opacity = look.opacity || 1;
   const material = new THREE.ShaderMaterial({
     vertexShader: kVertexShader,
@@ -130,6 +141,8 @@ faces.mesh = (set, shared, look = {}) => {
     depthWrite: opacity === 1,
     uniforms: Object.assign({}, shared, {
       values: {value: faces.texture(values, width, rows, THREE.RedFormat)},
+      captures: {value: faces.texture(captures, Math.min(width, captures.length),
+        Math.ceil(captures.length / width), THREE.RedFormat, THREE.FloatType)},
       valuesWidth: {value: width},
       plainColour: {value: new THREE.Color(look.colour || 0)},
       opacity: {value: opacity},
@@ -162,10 +175,10 @@ faces.usualBox = sets => {
 };
 
 /**
- * The face of a set that a ray meets first, below a height: {distance, value, key, point}; null for
- * none. `ray` is a THREE.Ray in the map frame.
+ * The face of a set that a ray meets first: {distance, value, centre_m}; null for none. `ray` is a
+ * THREE.Ray in the map frame; the shared settings leave out what is not drawn.
  */
-faces.pick = (set, ray, cutHeight) => {
+faces.pick = (set, ray, {cutHeight, lastCapture}) => {
   const {resolution_m, key_of_origin} = page.data.map;
   const from = ray.origin.toArray().map(c => c / resolution_m + key_of_origin);
   const along = ray.direction.toArray();
@@ -183,7 +196,9 @@ faces.pick = (set, ray, cutHeight) => {
     if (u < 0 || u > (shape & 31)) continue;
     const v = Math.floor(from[b] + t * along[b] - r[4 * i + b]);
     if (v < 0 || v > (shape >> 5 & 31)) continue;
-    if ((from[2] + t * along[2] - key_of_origin) * resolution_m > cutHeight) continue;
+    if ((from[2] + t * along[2] - key_of_origin) * resolution_m > cutHeight.value) continue;
+    if (lastCapture.value >= 0
+      && set.captures[set.firstFace[i] + v * (1 + (shape & 31)) + u] > lastCapture.value) continue;
     best = t, found = i, bestU = u, bestV = v;
   }
   if (found < 0) return null;

@@ -55,6 +55,8 @@
   }
   const voxels = page.data.voxel_gains && await gains.voxels();
   if (voxels) shown.gains = voxels.mesh;
+  const drive = page.data.episode && await episode.unpack();
+  if (drive) shown.drive = episode.objects(drive, sensor);
   const tick = (name, isOn) => { page.element("show-" + name).checked = isOn; };
   // A map without free space, or all of whose surfaces look outward, has backs alone.
   if (sets.seen.count < sets.backs.count / 20) tick("backs", true);
@@ -137,7 +139,7 @@
     page.redraw();
   };
   const scope = box.clone();
-  if (answer) scope.expandByObject(shown.views);
+  for (const object of [shown.views, shown.drive]) if (object) scope.expandByObject(object);
   const centre = scope.getCenter(new THREE.Vector3());
   const reach_m = Math.max(0.5 * scope.getSize(new THREE.Vector3()).length(), 5 * map.resolution_m);
   eye.far = 100 * reach_m;
@@ -155,9 +157,10 @@
   const resize = () => {
     renderer.setSize(innerWidth, innerHeight, false);
     eye.aspect = innerWidth / innerHeight;
-    // What matters stands in the middle of what the panel leaves free.
+    // What matters stands in the middle of what the panels leave free.
     const covered = innerWidth > 700 ? 316 : 0;
-    eye.setViewOffset(innerWidth, innerHeight, -covered / 2, 0, innerWidth, innerHeight);
+    const coveredBelow = drive ? 140 : 0;
+    eye.setViewOffset(innerWidth, innerHeight, -covered / 2, coveredBelow / 2, innerWidth, innerHeight);
     eye.updateProjectionMatrix();
     page.redraw();
   };
@@ -167,6 +170,9 @@
 
   addEventListener("keydown", event => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === " " && drive && event.target.tagName !== "INPUT" && event.target.tagName !== "BUTTON") {
+      page.element("play").click();
+    }
     const box = document.querySelector(`[data-key="${CSS.escape(event.key)}"]`);
     if (box && !box.closest("[hidden]")) box.click();
     const moves = {r: first, t: above, c: throughCamera};
@@ -185,7 +191,7 @@
     let best = null;
     for (const name of ["seen", "backs"]) {
       if (!shown[name].visible) continue;
-      const hit = faces.pick(sets[name], caster.ray, shared.cutHeight.value);
+      const hit = faces.pick(sets[name], caster.ray, shared);
       if (hit && (!best || hit.distance < best.distance)) best = hit;
     }
     const [cube] = voxels && voxels.mesh.visible ? caster.intersectObject(voxels.mesh) : [];
@@ -204,6 +210,7 @@
   });
   canvas.addEventListener("pointerleave", () => page.showTip(""));
 
+  if (drive) episode.play(drive, shown.drive, shared);
   if (answer) {
     const tried = views.frustum(sensor, {colour: new THREE.Color(page.styleColour("--tried"))});
     scene.add(tried);
