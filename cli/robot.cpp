@@ -67,6 +67,8 @@ std::string robot_text(const Robot& robot, const std::optional<UrdfMast>& urdf) 
           joint_text(Joint::height, mast.height_min_m, mast.height_max_m, mast.height_velocity_m_s,
                      false, urdf) +
           "\n";
+  text += "axis    the pan axis stands at x, y = " + format_number(mast.pan_axis_x_m) + ", " +
+          format_number(mast.pan_axis_y_m) + " m of the base\n";
   const Eigen::Vector3d& offset_m = mast.sensor_offset_m;
   text += "offset  " + format_number(offset_m.x()) + ", " + format_number(offset_m.y()) + ", " +
           format_number(offset_m.z()) +

@@ -49,7 +49,7 @@ GainBound::GainBound(const VoxelGrid& grid, const SensorOptions& sensor, const M
       block_bins_([&] {
         const MastOptions& options = mast.mast().options();
         const double lever_m = options.sensor_offset_m.norm() +
-                               mast.base_twist().speed_m_s() / std::min(options.tilt_velocity_rad_s,
+                               mast.mast_twist().speed_m_s() / std::min(options.tilt_velocity_rad_s,
                                                                         options.pan_velocity_rad_s);
         // Turning through a block is to move the camera by no more than a slab.
         const double bins = kSlabPerCell_m_rad / lever_m;
@@ -203,7 +203,7 @@ std::pair<double, double> GainBound::arrival_times_s(const JointBox& box) const 
 }
 
 std::pair<double, double> GainBound::turns_rad(const JointBox& box) const {
-  const double turn_rad_s = mast_.base_twist().wz_rad_s;
+  const double turn_rad_s = mast_.mast_twist().wz_rad_s;
   const auto [first_s, last_s] = arrival_times_s(box);
   return std::minmax(turn_rad_s * first_s, turn_rad_s * last_s);
 }
@@ -211,17 +211,17 @@ std::pair<double, double> GainBound::turns_rad(const JointBox& box) const {
 std::pair<Eigen::Vector3d, Eigen::Vector3d> GainBound::origins_m(const JointBox& box) const {
   const auto [first_s, last_s] = arrival_times_s(box);
   const Eigen::Vector3d middle = 0.5 * (box.min + box.max);
-  const Transform T_map_base = mast_.T_map_base(0.5 * (first_s + last_s));
+  const Transform T_map_mast = mast_.T_map_mast(0.5 * (first_s + last_s));
   const Eigen::Vector3d centre =
-      T_map_base * mast_.mast().T_base_sensor(JointPosition::from(middle)).translation();
+      T_map_mast * mast_.mast().T_mast_sensor(JointPosition::from(middle)).translation();
   // How far the joints and the base's way take the camera from there, along the mast and across.
   const Eigen::Vector3d half = 0.5 * (box.max - box.min);
-  const BaseTwist& twist = mast_.base_twist();
+  const BaseTwist& twist = mast_.mast_twist();
   const double half_s = 0.5 * (last_s - first_s);
   const double lever_m = mast_.mast().options().sensor_offset_m.norm();
   const double around_m = twist.speed_m_s() * half_s +
                           lever_m * (half[0] + half[1] + std::abs(twist.wz_rad_s) * half_s);
-  const Eigen::Vector3d reach = half[2] * T_map_base.linear().col(2).cwiseAbs() +
+  const Eigen::Vector3d reach = half[2] * T_map_mast.linear().col(2).cwiseAbs() +
                                 Eigen::Vector3d::Constant(around_m + kPlaceRounding_m);
   return {centre - reach, centre + reach};
 }
@@ -327,7 +327,7 @@ ConeCells& GainBound::cells_of(const BoundBlock& block,
   // Rays go highest, lowest and farthest aside at the ends of the tilts.
   const CellBox all = united(seen_from(block, 0, 0, block.pans, turn_cells),
                              seen_from(block, block.tilts - 1, 0, block.pans, turn_cells));
-  const CellFrame frame{mast_.T_map_base(0.0).linear(), box_.min[0], cell_rad(block.level)};
+  const CellFrame frame{mast_.T_map_mast(0.0).linear(), box_.min[0], cell_rad(block.level)};
   const auto [low_m, high_m] = origins_m(box_of(block));
   cells = std::make_shared<ConeCells>(frame, all, lattice_.to_lattice(low_m) - cones_grid_.corner(),
                                       lattice_.to_lattice(high_m) - cones_grid_.corner());

@@ -108,7 +108,7 @@ class Panorama::Impl {
         times_(0.0, longest_time_s_, time_spacing_s(), false),
         caster_{.grid = *grid_,
                 .directions = directions_,
-                .R_map_base = mast_.T_map_base(0.0).linear(),
+                .R_map_base = mast_.T_map_mast(0.0).linear(),
                 .range_min_m = sensor.range_min_m,
                 .range_max_m = sensor.longest_range_m(),
                 .near_blocking = sensor.near_blocking,
@@ -188,14 +188,14 @@ class Panorama::Impl {
   }
 
   detail::PanoramaDirections directions(const JointBox& box, const PanoramaOptions& options) const {
-    const JointBox seen = with_turn(box, mast_.base_twist().wz_rad_s * longest_time_s_);
+    const JointBox seen = with_turn(box, mast_.mast_twist().wz_rad_s * longest_time_s_);
     return {detail::directions_in_reach(seen, model_.half_fov_h_rad + tau_h_rad_,
                                         model_.half_fov_v_rad + tau_v_rad_),
             options.ray_spacing * model_.ray_spacing_h_rad,
             options.ray_spacing * model_.ray_spacing_v_rad,
             box,
             lever_m(),
-            mast_.T_map_base(0.0).linear()};
+            mast_.T_map_mast(0.0).linear()};
   }
 
   const Eigen::Vector3d& lever_m() const { return mast_.mast().options().sensor_offset_m; }
@@ -203,13 +203,13 @@ class Panorama::Impl {
   /// How far the optical centre may be from where a layer was cast that it uses: a spacing up the
   /// mast, another along the base's path, and opposite to the lever arm that was cast with.
   double farthest_view_m() const {
-    return std::hypot(heights_.step, times_.step * mast_.base_twist().speed_m_s()) +
+    return std::hypot(heights_.step, times_.step * mast_.mast_twist().speed_m_s()) +
            2.0 * lever_m().norm();
   }
 
   /// How long the base takes from layer to layer; 0 where it stays.
   double time_spacing_s() const {
-    const double speed_m_s = mast_.base_twist().speed_m_s();
+    const double speed_m_s = mast_.mast_twist().speed_m_s();
     return speed_m_s > 0.0 ? layer_spacing_m_ / speed_m_s : 0.0;
   }
 
@@ -240,7 +240,7 @@ class Panorama::Impl {
   }
 
   Eigen::Vector3d centre_map_m(int layer) const {
-    return mast_.T_map_base(times_.at(layer / heights_.count)) *
+    return mast_.T_map_mast(times_.at(layer / heights_.count)) *
            Eigen::Vector3d(0.0, 0.0, heights_.at(layer % heights_.count));
   }
 

@@ -48,15 +48,23 @@ Mast::Mast(const MastOptions& options) : options_(options) {
 }
 
 Transform Mast::T_base_sensor(const JointPosition& q) const {
-  Transform T_base_body = Transform::Identity();
-  T_base_body.translate(Eigen::Vector3d(0.0, 0.0, q.height_m));
-  T_base_body.rotate(Eigen::AngleAxisd(q.pan_rad, Eigen::Vector3d::UnitZ()));
+  return T_base_mast() * T_mast_sensor(q);
+}
+
+Transform Mast::T_base_mast() const {
+  return Transform(Eigen::Translation3d(options_.pan_axis_x_m, options_.pan_axis_y_m, 0.0));
+}
+
+Transform Mast::T_mast_sensor(const JointPosition& q) const {
+  Transform T_mast_body = Transform::Identity();
+  T_mast_body.translate(Eigen::Vector3d(0.0, 0.0, q.height_m));
+  T_mast_body.rotate(Eigen::AngleAxisd(q.pan_rad, Eigen::Vector3d::UnitZ()));
   // A turn about body y (left) by a positive angle looks down; positive tilt looks up.
-  T_base_body.rotate(Eigen::AngleAxisd(-q.tilt_rad, Eigen::Vector3d::UnitY()));
+  T_mast_body.rotate(Eigen::AngleAxisd(-q.tilt_rad, Eigen::Vector3d::UnitY()));
   Transform T_body_sensor = Transform::Identity();
   T_body_sensor.translation() = options_.sensor_offset_m;
   T_body_sensor.linear() = rotation_body_sensor();
-  return T_base_body * T_body_sensor;
+  return T_mast_body * T_body_sensor;
 }
 
 JointBox Mast::reachable_box(const JointPosition& q, double motion_time_s) const {

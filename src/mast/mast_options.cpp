@@ -1,4 +1,6 @@
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/field_check.hpp"
 #include "nbvopt/mast/mast.hpp"
@@ -33,6 +35,10 @@ void MastOptions::validate() const {
   check_field(height_min_m >= -kMaxHeightM, "mast.height_min_m", height_min_m, "at least -100 m");
   check_field(height_max_m <= kMaxHeightM, "mast.height_max_m", height_max_m, "at most 100 m");
   check_velocity("mast.height_velocity_m_s", height_velocity_m_s);
+  for (const auto& [field, value] : {std::pair{"mast.pan_axis_x_m", pan_axis_x_m},
+                                     std::pair{"mast.pan_axis_y_m", pan_axis_y_m}}) {
+    check_field(std::abs(value) <= kMaxHeightM, field, value, "within 100 m of 0");
+  }
   for (const double coordinate : sensor_offset_m) {
     check_field(true, "mast.sensor_offset_m", coordinate, "three finite numbers");
   }

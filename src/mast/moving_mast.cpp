@@ -22,11 +22,20 @@ Transform driven(const BaseTwist& twist, double time_s) {
   return T_start_end;
 }
 
+/// The velocity of a point of the base.
+BaseTwist twist_beside(const BaseTwist& base, double x_m, double y_m) {
+  return {base.vx_m_s - base.wz_rad_s * y_m, base.vy_m_s + base.wz_rad_s * x_m, base.wz_rad_s};
+}
+
 }  // namespace
 
 MovingMast::MovingMast(const Mast& mast, const Transform& T_map_base, const BaseTwist& base_twist,
                        const JointPosition& joints)
-    : mast_(mast), T_map_base_(T_map_base), base_twist_(base_twist), joints_(joints) {}
+    : mast_(mast),
+      T_map_mast_(T_map_base * mast.T_base_mast()),
+      mast_twist_(
+          twist_beside(base_twist, mast.options().pan_axis_x_m, mast.options().pan_axis_y_m)),
+      joints_(joints) {}
 
 double MovingMast::longest_arrival_time_s(const JointBox& box) const {
   return std::max(arrival_time_s(JointPosition::from(box.min)),
@@ -34,14 +43,18 @@ double MovingMast::longest_arrival_time_s(const JointBox& box) const {
 }
 
 Transform MovingMast::T_map_base(double time_s) const {
-  if (base_twist_.is_zero()) return T_map_base_;
-  return T_map_base_ * driven(base_twist_, time_s);
+  return T_map_mast(time_s) * mast_.T_base_mast().inverse();
+}
+
+Transform MovingMast::T_map_mast(double time_s) const {
+  if (mast_twist_.is_zero()) return T_map_mast_;
+  return T_map_mast_ * driven(mast_twist_, time_s);
 }
 
 Transform MovingMast::T_map_sensor(const JointPosition& q) const {
-  const Transform T_base_sensor = mast_.T_base_sensor(q);
-  if (base_twist_.is_zero()) return T_map_base_ * T_base_sensor;
-  return T_map_base(arrival_time_s(q)) * T_base_sensor;
+  const Transform T_mast_sensor = mast_.T_mast_sensor(q);
+  if (mast_twist_.is_zero()) return T_map_mast_ * T_mast_sensor;
+  return T_map_mast(arrival_time_s(q)) * T_mast_sensor;
 }
 
 Eigen::Vector3d MovingMast::arrival_time_gradient(const JointPosition& q) const {
@@ -54,27 +67,27 @@ Eigen::Vector3d MovingMast::arrival_time_gradient(const JointPosition& q) const 
 }
 
 SensorMotion MovingMast::sensor_motion(const JointPosition& q) const {
-  const Transform T_base_sensor = mast_.T_base_sensor(q);
-  const Eigen::Matrix3d R_sensor_base = T_base_sensor.linear().transpose();
-  const Eigen::Vector3d p_base = T_base_sensor.translation();
-  const Eigen::Vector3d lever_base = p_base - Eigen::Vector3d(0.0, 0.0, q.height_m);
-  const Eigen::Vector3d z_base = Eigen::Vector3d::UnitZ();
+  const Transform T_mast_sensor = mast_.T_mast_sensor(q);
+  const Eigen::Matrix3d R_sensor_mast = T_mast_sensor.linear().transpose();
+  const Eigen::Vector3d p_mast = T_mast_sensor.translation();
+  const Eigen::Vector3d lever_mast = p_mast - Eigen::Vector3d(0.0, 0.0, q.height_m);
+  const Eigen::Vector3d z_mast = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d right_sensor = Eigen::Vector3d::UnitX();  // the axis that tilt turns about
 
   SensorMotion motion;
-  motion.angular = {R_sensor_base * z_base, right_sensor, Eigen::Vector3d::Zero()};
-  motion.linear = {R_sensor_base * z_base.cross(p_base),
-                   right_sensor.cross(R_sensor_base * lever_base), R_sensor_base * z_base};
-  if (base_twist_.is_zero()) return motion;
+  motion.angular = {R_sensor_mast * z_mast, right_sensor, Eigen::Vector3d::Zero()};
+  motion.linear = {R_sensor_mast * z_mast.cross(p_mast),
+                   right_sensor.cross(R_sensor_mast * lever_mast), R_sensor_mast * z_mast};
+  if (mast_twist_.is_zero()) return motion;
 
-  const Eigen::Vector3d turn_base = base_twist_.wz_rad_s * z_base;
-  const Eigen::Vector3d velocity_base =
-      Eigen::Vector3d(base_twist_.vx_m_s, base_twist_.vy_m_s, 0.0) + turn_base.cross(p_base);
+  const Eigen::Vector3d turn_mast = mast_twist_.wz_rad_s * z_mast;
+  const Eigen::Vector3d velocity_mast =
+      Eigen::Vector3d(mast_twist_.vx_m_s, mast_twist_.vy_m_s, 0.0) + turn_mast.cross(p_mast);
   const Eigen::Vector3d time_gradient = arrival_time_gradient(q);
   for (std::size_t i = 0; i < motion.angular.size(); ++i) {
     const double time_per_joint = time_gradient[static_cast<Eigen::Index>(i)];
-    motion.angular[i] += time_per_joint * (R_sensor_base * turn_base);
-    motion.linear[i] += time_per_joint * (R_sensor_base * velocity_base);
+    motion.angular[i] += time_per_joint * (R_sensor_mast * turn_mast);
+    motion.linear[i] += time_per_joint * (R_sensor_mast * velocity_mast);
   }
   return motion;
 }

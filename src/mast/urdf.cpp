@@ -63,7 +63,7 @@ class MastReader {
     set_pan();
     set_tilt();
     set_height();
-    set_offset();
+    set_offsets();
     if (!pan_ && !tilt_ && stages_.empty()) {
       warn("no joint between '" + chain_.base_link + "' and '" + chain_.camera_link +
            "' moves, so that there is one view only");
@@ -283,47 +283,33 @@ class MastReader {
     return *first;
   }
 
-  /// From the tilt's axis, or at the camera's own height without one, to the optical centre.
-  void set_offset() {
-    require_on_z_axis();
+  /// Where the pan axis stands, and from where the tilt axis meets it, or from the camera's own
+  /// height without one, to the optical centre.
+  void set_offsets() {
     const Eigen::Vector3d camera_m = T_base_camera_.translation();
-    const Eigen::Vector3d top_m(0.0, 0.0, tilt_ ? tilt_->point_m.z() : camera_m.z());
+    Eigen::Vector3d axis_m = Eigen::Vector3d::Zero();
+    if (pan_) {
+      axis_m << pan_->point_m.head<2>(), 0.0;
+    } else if (tilt_) {
+      axis_m = tilt_->point_m.dot(heading_) * heading_;  // any point of the tilt axis would do
+    }
+    if (tilt_) require_on_axis(axis_m);
+    result_.mast.pan_axis_x_m = rounded(axis_m.x());
+    result_.mast.pan_axis_y_m = rounded(axis_m.y());
+    axis_m.z() = tilt_ ? tilt_->point_m.z() : camera_m.z();
     result_.mast.sensor_offset_m =
-        (R_base_body_.transpose() * (camera_m - top_m)).unaryExpr([](double value) {
+        (R_base_body_.transpose() * (camera_m - axis_m)).unaryExpr([](double value) {
           return rounded(value);
         });
   }
 
-  /// A mast turns about the base's z axis, and its tilt axis meets it.
-  void require_on_z_axis() {
-    if (pan_ && !is_zero(pan_->point_m.head<2>().norm(), kOffsetTolerance_m)) {
-      refuse(*pan_->joint, "pans about a line at x, y = " + decimal(pan_->point_m.x(), 4) + ", " +
-                               decimal(pan_->point_m.y(), 4) + " m of " + quoted(chain_.base_link) +
-                               ", a mast about 0, 0" + other_base());
-    }
-    if (!tilt_) return;
-    const double before_m = tilt_->point_m.dot(heading_);
+  /// The tilt axis meets the pan axis.
+  void require_on_axis(const Eigen::Vector3d& axis_m) {
+    const double before_m = (tilt_->point_m - axis_m).dot(heading_);
     if (is_zero(before_m, kOffsetTolerance_m)) return;
-    refuse(*tilt_->joint, "tilts about a line " + decimal(before_m, 4) + " m before the " +
-                              (pan_ ? "axis of joint " + quoted(pan_->joint->name)
-                                    : "z axis of " + quoted(chain_.base_link)) +
-                              ", which a mast has no place for" + (pan_ ? "" : other_base()));
-  }
-
-  /// A remedy: a link of the chain, carried by no moving joint, whose z axis is the mast's.
-  std::string other_base() const {
-    const Eigen::Vector3d axis_m = pan_ ? pan_->point_m : tilt_->point_m;
-    Transform T_base_link = Transform::Identity();
-    for (const ChainJoint& joint : chain_.joints) {
-      if (joint.motion != ChainJoint::Motion::none) break;
-      T_base_link = T_base_link * joint.T_parent_child;
-      const Eigen::Vector3d away_m = axis_m - T_base_link.translation();
-      const double off_m = pan_ ? away_m.head<2>().norm() : std::abs(away_m.dot(heading_));
-      if (off_m <= kOffsetTolerance_m && T_base_link.linear()(2, 2) > 1.0 - 1e-6) {
-        return " (base_link may be " + quoted(joint.child_link) + ", which stands on it)";
-      }
-    }
-    return "; base_link must be a link on that line, which a fixed joint can add";
+    refuse(*tilt_->joint, "tilts about a line " + decimal(before_m, 4) +
+                              " m before the axis of joint " + quoted(pan_->joint->name) +
+                              ": in a mast they meet");
   }
 
   static std::pair<double, double> range(const ChainJoint& joint, double scale, double offset) {

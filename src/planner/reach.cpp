@@ -26,8 +26,8 @@ void check_drive(double drive_m, double turn_rad) {
 Surroundings sight_of(const MovingMast& mast, const JointBox& box, const SensorOptions& sensor,
                       const Lattice& lattice) {
   const double longest_s = mast.longest_arrival_time_s(box);
-  const double drive_m = mast.base_twist().speed_m_s() * longest_s;
-  check_drive(drive_m, std::abs(mast.base_twist().wz_rad_s) * longest_s);
+  const double drive_m = mast.mast_twist().speed_m_s() * longest_s;
+  check_drive(drive_m, std::abs(mast.mast_twist().wz_rad_s) * longest_s);
 
   // The drive in pieces: no point of a piece is farther from its middle than half its length.
   constexpr double kPiece_m = 0.5;
@@ -36,9 +36,9 @@ Surroundings sight_of(const MovingMast& mast, const JointBox& box, const SensorO
                           lattice.resolution_m() + 0.5 * drive_m / pieces;
   Eigen::AlignedBox3d mast_tops;
   for (int piece = 0; piece < pieces; ++piece) {
-    const Transform T_map_base = mast.T_map_base(longest_s * (piece + 0.5) / pieces);
+    const Transform T_map_mast = mast.T_map_mast(longest_s * (piece + 0.5) / pieces);
     for (const double height_m : {box.min[2], box.max[2]}) {
-      mast_tops.extend(T_map_base * Eigen::Vector3d(0.0, 0.0, height_m));
+      mast_tops.extend(T_map_mast * Eigen::Vector3d(0.0, 0.0, height_m));
     }
   }
   return {mast_tops, radius_m};
@@ -69,7 +69,7 @@ JointBox box_free_of_obstacles(const Reach& reach, const VoxelGrid& grid) {
   // Half voxels along the way of the optical centre, as far as it moves through no obstacle. A
   // moving base lengthens the way.
   const double way_per_height =
-      1.0 + mast.base_twist().speed_m_s() / mast.mast().options().height_velocity_m_s;
+      1.0 + mast.mast_twist().speed_m_s() / mast.mast().options().height_velocity_m_s;
   const double step_m = 0.5 * grid.lattice().resolution_m() / way_per_height;
   const auto free_until = [&](double limit_m, double direction) {
     double free_m = joints.height_m;

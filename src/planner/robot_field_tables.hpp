@@ -68,6 +68,9 @@ inline constexpr auto kMastFields = std::to_array<Field<MastOptions>>({
     field<&MastOptions::height_min_m>("height_min_m", "m; above the base"),
     field<&MastOptions::height_max_m>("height_max_m", "m"),
     field<&MastOptions::height_velocity_m_s>("height_velocity_m_s", "m/s"),
+    field<&MastOptions::pan_axis_x_m>("pan_axis_x_m",
+                                      "m; where the pan axis stands on the base: forward"),
+    field<&MastOptions::pan_axis_y_m>("pan_axis_y_m", "m; left"),
     field<&MastOptions::sensor_offset_m>(
         "sensor_offset_m", "m; tilt joint to optical centre: x forward, y left, z up"),
 });

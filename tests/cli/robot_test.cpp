@@ -37,6 +37,7 @@ TEST_F(CommandLine, QueryAnswersAUrdfAsTheYamlByHand) {
                    "mast:\n  pan_continuous: false\n  pan_min_rad: -2.6\n  pan_max_rad: 2.6\n"
                    "  pan_velocity_rad_s: 1.5\n  tilt_min_rad: -1.1\n  tilt_max_rad: 0.5\n"
                    "  tilt_velocity_rad_s: 0.8\n  height_min_m: 0.47\n  height_max_m: 0.47\n"
+                   "  pan_axis_x_m: -0.05\n"
                    "  sensor_offset_m: [0.04, 0.0175, 0.025]\n");
   const Arguments situation{"query", map_file, "--base", "0,0,0", "--motion-time", "0.5", "--json"};
   const Arguments turtle = joined({"--robot", shipped_robot("turtle_pan_tilt.urdf")}, kCamera);
@@ -58,7 +59,9 @@ TEST_F(CommandLine, RobotShowTellsWhatAUrdfSaysAndWritesIt) {
                      "whose axes are optical"),
           HasSubstr("pan     -2.6 to 2.6 rad, at most 1.5 rad/s: pan = head_pan_joint\n"),
           HasSubstr("tilt    -1.1 to 0.5 rad, at most 0.8 rad/s: tilt = -head_tilt_joint\n"),
-          HasSubstr("height  0.47 m, fixed\n"), HasSubstr("offset  0.04, 0.0175, 0.025 m")));
+          HasSubstr("height  0.47 m, fixed\n"),
+          HasSubstr("axis    the pan axis stands at x, y = -0.05, 0 m of the base\n"),
+          HasSubstr("offset  0.04, 0.0175, 0.025 m")));
   const Robot direct =
       read_robot(shipped_robot("turtle_pan_tilt.urdf"), {}, {"camera_depth_optical_frame", "", {}});
   EXPECT_EQ(read_robot(yaml), direct);

@@ -163,9 +163,11 @@ INSTANTIATE_TEST_SUITE_P(
                   [](Scene& scene) {
                     scene.mast.sensor_offset_m = {0.08, -0.03, 0.05};
                   }},
-        Variation{"MovingBase",
+        Variation{"MovingBaseWithMastBeside",
                   [](Scene& scene) {
                     scene.twist = {0.06, -0.02, 0.5};
+                    scene.mast.pan_axis_x_m = -0.04;
+                    scene.mast.pan_axis_y_m = 0.03;
                   }},
         Variation{
             "TiltedBase",

@@ -109,9 +109,11 @@ INSTANTIATE_TEST_SUITE_P(
                   world.sensor.counting = Counting::per_voxel;
                   world.mast.sensor_offset_m = {0.06, -0.03, 0.04};
                 }},
-        Variant{"lever_arm_on_moving_base",
+        Variant{"lever_arm_on_moving_base_with_mast_beside",
                 [](PanoramaWorld& world) {
                   world.base_twist = {0.3, -0.2, 0.8};
+                  world.mast.pan_axis_x_m = -0.1;
+                  world.mast.pan_axis_y_m = 0.06;
                   world.mast.sensor_offset_m = {0.06, -0.03, 0.04};
                 }},
         Variant{"equal_angles",

@@ -73,6 +73,16 @@ TEST(MastKinematics, OffsetTurnsWithPanAndTilt) {
               {s * (0.1 - 0.05), 0.02, 0.4 + s * (0.1 + 0.05)});
 }
 
+TEST(MastKinematics, PanTurnsAboutItsAxisWhereverItStands) {
+  MastOptions options;
+  options.pan_axis_x_m = -0.2;
+  options.pan_axis_y_m = 0.1;
+  options.sensor_offset_m << 0.1, 0.0, 0.0;
+  const Mast mast(options);
+  expect_near(mast.T_base_sensor({0.0, 0.0, 0.4}).translation(), {-0.1, 0.1, 0.4});
+  expect_near(mast.T_base_sensor({pi / 2, 0.0, 0.4}).translation(), {-0.2, 0.2, 0.4});
+}
+
 // Algorithm 2's box.
 
 TEST(ReachableBox, WithoutLimitIsTheJointsRangeAndOneTurn) {
@@ -217,6 +227,8 @@ TEST(MastOptions, BadFieldsAreNamedWithTheirValue) {
                         "is 0.1"));
   EXPECT_THAT(message([](auto& m) { m.height_velocity_m_s = kNaN; }),
               HasSubstr("mast.height_velocity_m_s is nan"));
+  EXPECT_THAT(message([](auto& m) { m.pan_axis_y_m = -101.0; }),
+              HasSubstr("mast.pan_axis_y_m is -101, it must be within 100 m of 0"));
   EXPECT_THAT(message([](auto& m) { m.sensor_offset_m[1] = kNaN; }),
               HasSubstr("mast.sensor_offset_m is nan"));
 }

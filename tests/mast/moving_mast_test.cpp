@@ -20,6 +20,14 @@ Mast mast_with_lever() {
   return Mast(options);
 }
 
+/// The same whose pan axis stands beside the base's origin.
+Mast mast_beside() {
+  MastOptions options = mast_with_lever().options();
+  options.pan_axis_x_m = -0.1;
+  options.pan_axis_y_m = 0.07;
+  return Mast(options);
+}
+
 /// A base on a slope: nothing may rely on its z being the map's.
 Transform tilted_base() {
   Transform T_map_base = base_pose(1.0, -2.0, 0.1, 0.8);
@@ -41,6 +49,18 @@ TEST(MovingMast, AtRestIsTheMastOnItsBase) {
     EXPECT_EQ(at_rest.T_map_sensor(q).matrix(), (tilted_base() * mast.T_base_sensor(q)).matrix());
   }
   EXPECT_EQ(at_rest.T_map_base(5.0).matrix(), tilted_base().matrix());
+}
+
+TEST(MovingMast, CarriesAMastBesideItsOrigin) {
+  const Mast mast = mast_beside();
+  const MovingMast moving(mast, tilted_base(), kArc, kNow);
+  const MovingMast base(mast_with_lever(), tilted_base(), kArc, kNow);
+  for (const JointPosition& q : positions()) {
+    const double time_s = moving.arrival_time_s(q);
+    EXPECT_TRUE(moving.T_map_base(time_s).isApprox(base.T_map_base(time_s), 1e-12));
+    EXPECT_TRUE(
+        moving.T_map_sensor(q).isApprox(base.T_map_base(time_s) * mast.T_base_sensor(q), 1e-12));
+  }
 }
 
 TEST(MovingMast, StandsWhereItIsUntilTheJointsMove) {
@@ -136,7 +156,7 @@ void expect_motion_as_differences_say(const MovingMast& mast, const JointPositio
 }
 
 TEST(SensorMotion, IsTheDerivativeOfThePose) {
-  for (const Mast& mast : {Mast(MastOptions{}), mast_with_lever()}) {
+  for (const Mast& mast : {Mast(MastOptions{}), mast_with_lever(), mast_beside()}) {
     for (const BaseTwist& twist : {BaseTwist{}, kArc, BaseTwist{0.5, 0.2, 0.0}}) {
       const MovingMast moving(mast, tilted_base(), twist, kNow);
       for (const JointPosition& q : positions()) expect_motion_as_differences_say(moving, q);

@@ -109,6 +109,7 @@ TEST(Urdf, ShippedTurtleIsWhatOneWouldWriteByHandToTheBit) {
   by_hand.tilt_max_rad = 0.5;
   by_hand.tilt_velocity_rad_s = 0.8;
   by_hand.height_min_m = by_hand.height_max_m = 0.47;
+  by_hand.pan_axis_x_m = -0.05;
   by_hand.sensor_offset_m = {0.04, 0.0175, 0.025};
   const UrdfMast turtle = shipped("turtle_pan_tilt.urdf");
   EXPECT_EQ(turtle.mast, by_hand);
@@ -166,7 +167,7 @@ TEST(Urdf, KinematicsEqualTheChainsForRandomJoints) {
     // Whoever slides the tilt joint along its own axis changes nothing but the offset's y.
     const MadeJoint camera = with({}, number(0.1) + " " + number(0.1) + " " + number(0.1),
                                   "0 " + std::to_string(camera_pitch) + " 0");
-    std::vector<MadeJoint> chain{with({}, "0 0 " + number(0.3))};
+    std::vector<MadeJoint> chain{with({}, number(0.3) + " " + number(0.3) + " " + number(0.3))};
     chain.insert(chain.end(), {lifts_first ? lift : pan, lifts_first ? pan : lift, tilt, camera});
     if (is_optical) chain.push_back(with({}, "0 0 0", kOpticalRpy));
     const UrdfMast urdf =
@@ -332,15 +333,22 @@ TEST(Urdf, AxesOfNoMastAreRefused) {
   EXPECT_THAT(refusal({none}), HasSubstr("joint 'j0' has the axis 0 0 0"));
 }
 
-TEST(Urdf, OffsetsThatTheMastHasNoPlaceForAreRefused) {
-  EXPECT_THAT(refusal({with(kPan, "0.1 0 0"), kTilt}),
-              AllOf(HasSubstr("joint 'j0' pans about a line at x, y = 0.1000, 0.0000 m of 'a0'"),
-                    HasSubstr("which a fixed joint can add")));
-  EXPECT_THAT(refusal({with({}, "0.1 0 0.2"), kPan, kTilt}),
-              HasSubstr("base_link may be 'a1', which stands on it"));
-  EXPECT_THAT(refusal({kPan, with(kTilt, "0.05 0.02 0")}),
+TEST(Urdf, TiltAxisBeforeThePanAxisIsRefused) {
+  EXPECT_THAT(refusal({with(kPan, "0.1 0 0"), with(kTilt, "0.05 0.02 0")}),
               HasSubstr("joint 'j1' tilts about a line 0.0500 m before the axis of joint 'j0'"));
-  EXPECT_THAT(refusal({with({}, "0.1 0 0.2"), kTilt}), HasSubstr("base_link may be 'a1'"));
+}
+
+TEST(Urdf, PanAxisStandsBesideTheBase) {
+  const UrdfMast urdf =
+      mast_of_chain({with({}, "-0.1 0.05 0.2", "0 0 1.5"), kPan, with(kTilt, "0 0.02 0.1")});
+  EXPECT_EQ(urdf.mast.pan_axis_x_m, -0.1);
+  EXPECT_EQ(urdf.mast.pan_axis_y_m, 0.05);
+  EXPECT_EQ(urdf.mast.sensor_offset_m, Eigen::Vector3d(0.0, 0.02, 0.0));
+  // Without a pan, the tilt axis is met where it is nearest.
+  const UrdfMast still = mast_of_chain({with(kTilt, "0.1 0.05 0.2")});
+  EXPECT_EQ(still.mast.pan_axis_x_m, 0.1);
+  EXPECT_EQ(still.mast.pan_axis_y_m, 0.0);
+  EXPECT_EQ(still.mast.sensor_offset_m, Eigen::Vector3d(0.0, 0.05, 0.0));
 }
 
 TEST(Urdf, CameraThatIsNotUprightIsRefused) {

@@ -64,6 +64,8 @@ TEST(RobotFile, ReadsBackEveryFieldThatItWrites) {
                 .height_min_m = 0.2,
                 .height_max_m = 0.9,
                 .height_velocity_m_s = 0.05,
+                .pan_axis_x_m = -0.1,
+                .pan_axis_y_m = 0.05,
                 .sensor_offset_m = {0.06, -0.01, 0.02}};
   EXPECT_EQ(parse_robot(to_yaml(robot), "robot.yaml"), robot);
 }

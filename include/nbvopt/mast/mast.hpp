@@ -15,8 +15,8 @@ enum class Joint { pan = 0, tilt = 1, height = 2 };
 inline constexpr std::array<Joint, 3> kJoints{Joint::pan, Joint::tilt, Joint::height};
 std::string to_string(Joint value);
 
-/// Pan turns about base z, counter-clockwise from above; positive tilt looks up; height is the
-/// optical centre's z above the base when the sensor offset is zero.
+/// Pan turns about base z or a line beside it, counter-clockwise from above; positive tilt looks
+/// up; height is the optical centre's z above the base when the sensor offset is zero.
 struct JointPosition {
   double pan_rad = 0.0;
   double tilt_rad = 0.0;
@@ -49,6 +49,8 @@ struct MastOptions {
   double height_min_m = 0.18;
   double height_max_m = 0.63;
   double height_velocity_m_s = 0.15;
+  double pan_axis_x_m = 0.0;  ///< where the pan axis stands on the base, forward of its origin
+  double pan_axis_y_m = 0.0;  ///< the same to its left
   /// From the tilt joint to the optical centre, in body axes (x forward, y left, z up).
   Eigen::Vector3d sensor_offset_m = Eigen::Vector3d::Zero();
 
@@ -69,8 +71,14 @@ class Mast {
   /// Joint velocities (rad/s, rad/s, m/s).
   const Eigen::Vector3d& velocity() const { return velocity_; }
 
-  /// T_base_sensor = translation(0, 0, height) * Rz(pan) * Ry(-tilt) * (offset, O).
+  /// T_base_sensor = T_base_mast * T_mast_sensor.
   Transform T_base_sensor(const JointPosition& q) const;
+
+  /// The mast's foot, where the pan axis meets the base's x, y plane; a translation.
+  Transform T_base_mast() const;
+
+  /// T_mast_sensor = translation(0, 0, height) * Rz(pan) * Ry(-tilt) * (offset, O).
+  Transform T_mast_sensor(const JointPosition& q) const;
 
   /// Algorithm 2's ranges: per joint [max(min, q - v t), min(max, q + v t)]; t = 0 means no
   /// limit. A continuous pan's box is at most one turn, centred on the current pan, unwrapped.

@@ -30,6 +30,8 @@ struct SensorMotion {
 };
 
 /// Where the camera will be once the joints have arrived. At rest, the base stays where it is.
+/// What looks around (panoramas, bounds) knows the mast's foot alone, which the base carries along;
+/// its frame has the base's axes.
 class MovingMast {
  public:
   /// `joints` is where the mast is now, when the base is at T_map_base.
@@ -38,7 +40,8 @@ class MovingMast {
 
   const Mast& mast() const { return mast_; }
   const JointPosition& joints() const { return joints_; }
-  const BaseTwist& base_twist() const { return base_twist_; }
+  /// The velocity of the mast's foot, in its own frame: the base's, and what turning adds.
+  const BaseTwist& mast_twist() const { return mast_twist_; }
 
   /// When the slowest joint arrives at q, seconds from now.
   double arrival_time_s(const JointPosition& q) const { return mast_.move_time_s(joints_, q); }
@@ -54,6 +57,9 @@ class MovingMast {
   /// The base predicted for a time from now.
   Transform T_map_base(double time_s) const;
 
+  /// The mast's foot, predicted so.
+  Transform T_map_mast(double time_s) const;
+
   /// The optical frame once the joints have arrived at q.
   Transform T_map_sensor(const JointPosition& q) const;
 
@@ -63,8 +69,8 @@ class MovingMast {
 
  private:
   Mast mast_;
-  Transform T_map_base_;
-  BaseTwist base_twist_;
+  Transform T_map_mast_;
+  BaseTwist mast_twist_;
   JointPosition joints_;
 };
 

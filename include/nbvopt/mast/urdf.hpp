@@ -49,8 +49,7 @@ bool is_xml(std::string_view text);
 
 /// Reads the chain from base to camera. A vertical joint is the pan, a horizontal one to the
 /// camera's left or right the tilt, vertical prismatic ones the height, wherever the frames of
-/// links between them lie, as long as
-/// T_base_sensor = translation(0, 0, height) * Rz(pan) * Ry(-tilt) * (offset, O) holds. Numbers
+/// links between them lie, as long as Mast::T_base_sensor() can be what the chain is. Numbers
 /// that were added are rounded to 1e-12, so that decimals stay decimals. Angles off by at most
 /// 0.002 rad (1.57 for a right one) and axes by 1 mm are taken for what they mean.
 ///

@@ -36,7 +36,8 @@ class PlacePanorama {
   /// cannot be used.
   PlacePanorama(const Robot& robot, double resolution_m);
 
-  /// With the base at a place (z is the floor's) and the mast half way up.
+  /// With the base at a place (z is the floor's) and the mast half way up. The base may turn there,
+  /// so that a pan axis beside its origin is taken to be on it.
   PlaceGain look_around(const VoxelGrid& grid, const HazardTable& hazards,
                         const Eigen::Vector3d& base_map_m) const;
 
