@@ -1,5 +1,6 @@
 # The Debian packages that `make deb` builds, one a component of cmake/install.cmake. Libraries are
 # static, so that there is no package between the tool and what programs are built with.
+set(scripts ${PROJECT_SOURCE_DIR}/packaging)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "nbvopt authors")
 set(CPACK_PACKAGE_CONTACT "nbvopt authors <nbvopt@localhost>")
@@ -32,7 +33,7 @@ if(NBVOPT_BUILD_CLI)
 a simulator, and studies of searches.")
   if(NBVOPT_BUILD_SERVER)
     set(CPACK_DEBIAN_TOOL_PACKAGE_CONTROL_EXTRA
-      ${PROJECT_SOURCE_DIR}/packaging/postinst;${PROJECT_SOURCE_DIR}/packaging/prerm;${PROJECT_SOURCE_DIR}/packaging/postrm)
+      ${scripts}/tool/postinst ${scripts}/tool/prerm ${scripts}/tool/postrm)
   endif()
 endif()
 
@@ -40,6 +41,7 @@ if(NBVOPT_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-nbvopt)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/python/postinst ${scripts}/python/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module: maps, planner and simulator, and a client \
 of the planning server, which needs what is recommended.")
   # The module is built for one version of Python.

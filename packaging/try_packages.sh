@@ -21,7 +21,10 @@ clean_up() {
 named=${2:-}
 trap clean_up EXIT
 
-inside() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 HOME=/root "$@"; }
+inside() {
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+    DEBIAN_FRONTEND=noninteractive "$@"
+}
 install() { inside apt-get install -qq -y --no-install-recommends "$@" >>"$work/apt.log" 2>&1; }
 # All files but users', apt's and dpkg's own books and what programs keep to be faster.
 files() {
