@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/options/arguments.hpp"
+#include "cli/study_exchange.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
@@ -223,6 +224,7 @@ void set_up_study(CLI::App& app) {
   add_run(*study, "reference", "Find the best view of every question, by exhaustive search",
           WorkKind::reference);
   add_merge(*study);
+  add_study_exchange(*study);
   add_report(*study);
   study
       ->add_subcommand("worker",

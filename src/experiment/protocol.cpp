@@ -57,6 +57,12 @@ std::string answer_line(const std::string& unit_id, const Outcome& outcome) {
   return to_line(line);
 }
 
+std::string unit_of_answer(std::string_view line) {
+  const Json answer = parse_object(line);
+  const Json unit = answer.is_null() ? Json() : answer.value("unit", Json());
+  return unit.is_string() ? unit.get<std::string>() : std::string();
+}
+
 std::optional<Outcome> parse_answer(std::string_view line, const std::string& unit_id) {
   const Json answer = parse_object(line);
   if (answer.is_null() || answer.value("unit", Json()) != unit_id) return std::nullopt;

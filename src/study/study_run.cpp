@@ -6,7 +6,9 @@
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
+#include "experiment/protocol.hpp"
 #include "experiment/record_file.hpp"
+#include "nbvopt/core/error.hpp"
 #include "study/fingerprints.hpp"
 #include "study/record.hpp"
 
@@ -82,6 +84,26 @@ std::unordered_map<std::string, bool> finished_units(const std::filesystem::path
   return finished;
 }
 
+/// The units of the shard that are to be run.
+std::vector<std::size_t> open_units(Work& work, const std::filesystem::path& records,
+                                    const RunOptions& options) {
+  const auto finished = finished_units(records);
+  std::vector<std::size_t> open;
+  for (const std::size_t i : work.of(options.shard)) {
+    const auto unit = finished.find(work.id(i));
+    if (unit == finished.end() || (unit->second && options.retry_failed)) open.push_back(i);
+  }
+  return open;
+}
+
+/// The study in its folder, which is no other run's meanwhile.
+FileLock open_folder(const Study& study, const StudyFolder& folder) {
+  create_folder(folder.root);
+  FileLock lock(folder.study(), "run writes this study");
+  write_study(study, folder);
+  return lock;
+}
+
 }  // namespace
 
 WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind,
@@ -102,22 +124,50 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
                                 const RunOptions& options, experiment::Pool& pool,
                                 const std::function<void(const Json& record)>& on_end) {
-  create_folder(folder.root);
-  const FileLock lock(folder.study(), "run writes this study");
-  write_study(study, folder);
+  const FileLock lock = open_folder(study, folder);
   experiment::RecordFile records(record_path(folder, kind));
   Work work(study, folder, kind);
-  std::vector<std::size_t> to_do;
-  {
-    const auto finished = finished_units(record_path(folder, kind));
-    for (const std::size_t i : work.of(options.shard)) {
-      const auto unit = finished.find(work.id(i));
-      if (unit == finished.end() || (unit->second && options.retry_failed)) to_do.push_back(i);
-    }
-  }
+  const std::vector<std::size_t> to_do = open_units(work, record_path(folder, kind), options);
   return experiment::run_units(
       work, to_do, kind == WorkKind::query ? study.unit_timeout_s : study.reference_timeout_s, pool,
       records, on_end);
+}
+
+void list_units(const Study& study, const StudyFolder& folder, WorkKind kind,
+                const RunOptions& options,
+                const std::function<void(const experiment::Unit& unit)>& visit) {
+  const FileLock lock = open_folder(study, folder);
+  Work work(study, folder, kind);
+  for (const std::size_t i : open_units(work, record_path(folder, kind), options)) {
+    visit(work.unit(i));
+  }
+}
+
+std::size_t record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
+                           std::istream& answers) {
+  const FileLock lock = open_folder(study, folder);
+  experiment::RecordFile records(record_path(folder, kind));
+  Work work(study, folder, kind);
+  std::unordered_map<std::string, std::size_t> unit_of_id;
+  for (const std::size_t i : work.of({})) unit_of_id.emplace(work.id(i), i);
+  auto finished = finished_units(record_path(folder, kind));
+  std::size_t count = 0;
+  std::string line;
+  for (std::size_t number = 1; std::getline(answers, line); ++number) {
+    const std::string id = experiment::unit_of_answer(line);
+    const auto unit = unit_of_id.find(id);
+    const auto outcome = experiment::parse_answer(line, id);
+    if (unit == unit_of_id.end() || !outcome) {
+      throw InputError("answers: line " + std::to_string(number) +
+                       ": is no answer to a unit of this study: " + line.substr(0, 80));
+    }
+    const auto known = finished.find(id);
+    if (known != finished.end() && !known->second) continue;
+    records.append(work.record(unit->second, *outcome));
+    finished[id] = !outcome->failure.empty();
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace nbvopt::study

@@ -1,7 +1,9 @@
 // Runs a study: all its units, or the reference of each of its cases, into the study's folder.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <istream>
 
 #include "experiment/coordinator.hpp"
 #include "experiment/pool.hpp"
@@ -43,5 +45,17 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
                                 const RunOptions& options, experiment::Pool& pool,
                                 const std::function<void(const Json& record)>& on_end);
+
+/// For engines that bring workers of their own: writes the study into its folder and visits what of
+/// the shard has no record there yet, as a worker is to get it. Throws as run_study().
+void list_units(const Study& study, const StudyFolder& folder, WorkKind kind,
+                const RunOptions& options,
+                const std::function<void(const experiment::Unit& unit)>& visit);
+
+/// Their answers on the way back, a worker's line each: every record is in its file before the next
+/// line is read, and a unit that has an answer keeps it. Gives the number of records. Throws
+/// InputError as run_study(), and that names the line of what is no answer to a unit of the study.
+std::size_t record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
+                           std::istream& answers);
 
 }  // namespace nbvopt::study

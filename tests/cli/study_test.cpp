@@ -142,6 +142,27 @@ TEST_F(StudyCommand, AStopKeepsWhatWasDone) {
   EXPECT_EQ(records("out").size(), 1728U);
 }
 
+TEST_F(StudyCommand, OtherEnginesTakeUnitsAndGiveAnswersBack) {
+  const std::string file = spec();
+  ASSERT_EQ(nbvopt_run(run_arguments("whole", file)).exit_code, 0);
+  const std::vector<std::string> rest{file, "--out", folder / "other"};
+  const auto ask = [&](const std::string& command, const std::string& input = {}) {
+    std::vector<std::string> arguments{"study", command};
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    return nbvopt_run(arguments, input);
+  };
+  const std::string units = ask("units").out;
+  const std::string said = nbvopt_run({"study", "worker"}, units).out;
+  const std::string answers = said.substr(said.find('\n') + 1);  // after its hello
+  const std::string count = std::to_string(records("whole").size());
+  EXPECT_EQ(ask("record", answers).out, count + " recorded\n");
+  EXPECT_EQ(records("other"), records("whole"));
+  EXPECT_EQ(ask("units").out, "");
+  EXPECT_EQ(ask("record", answers).out, "0 recorded\n");
+  expect_refusal(ask("record", "garbage\n"), 3, "answers: line 1: is no answer to a unit");
+  EXPECT_EQ(records("other"), records("whole"));
+}
+
 TEST_F(StudyCommand, WorkersAnswerLineByLine) {
   const ProcessResult result = nbvopt_run({"study", "worker"}, "");
   EXPECT_EQ(result.exit_code, 0) << result.err;

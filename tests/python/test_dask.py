@@ -1,0 +1,109 @@
+"""Studies on a Dask cluster of this machine, against `nbvopt study run`."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+try:
+    from distributed import Client, LocalCluster
+except ImportError:
+    print("OK (skipped=1): python3-distributed is not installed")
+    sys.exit(0)
+
+from nbvopt_dask import NbvoptError, run_study
+
+NBVOPT = os.environ["NBVOPT_CLI"]
+OFFICE = pathlib.Path(__file__).resolve().parents[2] / "datasets" / "office_partial.ot"
+
+SPEC = f"""
+maps: [{OFFICE}]
+starts: {{sampled: {{count: 3, seed: 7}}}}
+motion_times_s: [0.5]
+solvers: [{{solver: random}}]
+budgets: {{max_evaluations: [20, 60]}}
+seeds: %s
+"""
+
+
+def records(folder):
+    """By their unit, without times; each once."""
+    found = {}
+    for line in (pathlib.Path(folder) / "records.jsonl").read_text().splitlines():
+        record = json.loads(line)
+        del record["times"]
+        assert record["unit"] not in found, "recorded twice"
+        found[record["unit"]] = record
+    return found
+
+
+class DaskTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = LocalCluster(n_workers=2, threads_per_worker=1, processes=True,
+                                   dashboard_address=None, silence_logs=50)
+        cls.client = Client(cls.cluster)
+        cls.files = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.files.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.client.close()
+        cls.cluster.close()
+        cls.files.cleanup()
+
+    def spec(self, seeds):
+        file = self.folder / "spec.yaml"
+        file.write_text(SPEC % seeds)
+        return file
+
+    def run_on_dask(self, spec, out, **options):
+        return run_study(self.client, spec, self.folder / out, nbvopt=NBVOPT,
+                         worker_nbvopt=NBVOPT, **options)
+
+    def run_here(self, spec, out):
+        subprocess.run([NBVOPT, "study", "run", spec, "--out", self.folder / out], check=True,
+                       capture_output=True)
+        return records(self.folder / out)
+
+    def test_records_are_those_of_one_machine(self):
+        spec = self.spec([1, 2])
+        told = []
+        count = self.run_on_dask(spec, "dask", on_record=told.append)
+        here = self.run_here(spec, "here")
+        self.assertEqual(count, len(here))
+        self.assertEqual(told[-1], count)
+        self.assertEqual(records(self.folder / "dask"), here)
+        self.assertEqual(self.run_on_dask(spec, "dask"), 0, "all has been done")
+
+    def test_a_lost_worker_costs_nothing(self):
+        spec = self.spec([1, 2, 3])
+        here = self.run_here(spec, "here_lost")
+        killer = threading.Timer(0.2, self.kill_a_worker)
+        killer.start()
+        self.run_on_dask(spec, "lost", units_a_task=2)
+        killer.join()
+        self.assertEqual(records(self.folder / "lost"), here)
+
+    def kill_a_worker(self):
+        worker = next(iter(self.cluster.workers.values()))
+        os.kill(worker.process.process.pid, signal.SIGKILL)
+
+    def test_refusals_are_nbvopts(self):
+        with self.assertRaisesRegex(NbvoptError, "nowhere.yaml: cannot be opened"):
+            self.run_on_dask("nowhere.yaml", "none")
+
+    def test_a_unit_that_takes_too_long_fails(self):
+        spec = self.folder / "slow.yaml"
+        spec.write_text(SPEC % [1] + "unit_timeout_s: 0.000001\n")
+        self.run_on_dask(spec, "slow")
+        self.assertTrue(all("watchdog" in r["failure"] for r in records(self.folder / "slow").values()))
+
+
+if __name__ == "__main__":
+    unittest.main()
