@@ -23,9 +23,6 @@ inline constexpr auto kEnumNames<SimdLevel> = std::to_array<EnumName<SimdLevel>>
 
 namespace {
 
-using detail::BrickBox;
-using detail::BrickKey;
-
 /// The keys of a box around the origin, one voxel wider for rounding.
 std::pair<Eigen::Vector3i, Eigen::Vector3i> keys_of(const Eigen::Vector3d& origin_lattice,
                                                     const Eigen::Vector3d& min_m,

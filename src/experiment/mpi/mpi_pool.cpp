@@ -18,20 +18,22 @@ namespace nbvopt::experiment {
 namespace {
 
 /// What messages are about. Those about a worker begin with its life, a number and a blank.
+namespace tag {
 enum Tag : int {
   // to a rank
-  kStart,
-  kUnit,  ///< a unit's line
-  kStop,
-  kFile,  ///< its path alone
-  kGoHome,
+  start,
+  unit,  ///< a unit's line
+  stop,
+  file,  ///< its path alone
+  go_home,
   // from a rank
-  kReady,
-  kAnswer,  ///< an answer's line
-  kLost,    ///< how it ended
-  kSeen,    ///< a file; nothing else
-  kFailed,  ///< what no worker would do
+  ready,
+  answer,  ///< an answer's line
+  lost,    ///< how it ended
+  seen,    ///< a file; nothing else
+  failed,  ///< what no worker would do
 };
+}  // namespace tag
 
 /// MPI has nothing to wait on beside other things, so that we look again and again, at ever longer
 /// intervals while nothing comes.
@@ -70,38 +72,38 @@ MpiPool::MpiPool(const MpiSession& session)
     : session_(session), workers_(static_cast<std::size_t>(session.size() - 1)) {}
 
 MpiPool::~MpiPool() {
-  for (int rank = 1; rank < session_.size(); ++rank) session_.send(rank, kGoHome, {});
+  for (int rank = 1; rank < session_.size(); ++rank) session_.send(rank, tag::go_home, {});
 }
 
 void MpiPool::require_files(std::span<const std::filesystem::path> files) {
   std::size_t awaited = 0;
   for (const std::filesystem::path& file : files) {
     for (int rank = 1; rank < session_.size(); ++rank) {
-      session_.send(rank, kFile, std::filesystem::absolute(file).string());
+      session_.send(rank, tag::file, std::filesystem::absolute(file).string());
       ++awaited;
     }
   }
   std::vector<PoolEvent> none;
   for (Backoff backoff; awaited != 0; backoff.wait(-1)) {
     while (const auto message = session_.receive()) {
-      if (message->tag == kFailed) take(*message, none);
+      if (message->tag == tag::failed) take(*message, none);
       --awaited;
     }
   }
 }
 
 void MpiPool::start(std::size_t worker) {
-  session_.send(static_cast<int>(worker + 1), kStart, with_life(++workers_[worker].life, {}));
+  session_.send(static_cast<int>(worker + 1), tag::start, with_life(++workers_[worker].life, {}));
 }
 
 void MpiPool::hand_out(std::size_t worker, const Unit& unit) {
   workers_[worker].unit = unit.id;
-  session_.send(static_cast<int>(worker + 1), kUnit,
+  session_.send(static_cast<int>(worker + 1), tag::unit,
                 with_life(workers_[worker].life, unit_line(unit)));
 }
 
 void MpiPool::stop(std::size_t worker) {
-  session_.send(static_cast<int>(worker + 1), kStop, with_life(workers_[worker].life++, {}));
+  session_.send(static_cast<int>(worker + 1), tag::stop, with_life(workers_[worker].life++, {}));
 }
 
 std::vector<PoolEvent> MpiPool::wait(Clock::time_point until, int wake) {
@@ -115,17 +117,17 @@ std::vector<PoolEvent> MpiPool::wait(Clock::time_point until, int wake) {
 
 void MpiPool::take(const MpiSession::Message& message, std::vector<PoolEvent>& events) {
   const std::string rank = "rank " + std::to_string(message.rank) + ": ";
-  if (message.tag == kFailed) throw InputError(rank + message.bytes);
+  if (message.tag == tag::failed) throw InputError(rank + message.bytes);
   const std::size_t index = static_cast<std::size_t>(message.rank) - 1;
   const Told told = told_in(message.bytes);
   if (told.life != workers_[index].life) return;  // of one that was stopped
   PoolEvent event{.worker = index};
-  if (message.tag == kAnswer) {
+  if (message.tag == tag::answer) {
     std::optional<Outcome> outcome = parse_answer(told.text, workers_[index].unit);
     if (!outcome) throw InputError(rank + "is no answer: " + told.text.substr(0, 80));
     event.kind = PoolEvent::Kind::answered;
     event.outcome = *std::move(outcome);
-  } else if (message.tag == kLost) {
+  } else if (message.tag == tag::lost) {
     event.kind = PoolEvent::Kind::lost;
     event.how = told.text;
   }
@@ -175,18 +177,18 @@ class Rank {
  private:
   /// False when it is to go home.
   bool obey(const MpiSession::Message& message) {
-    if (message.tag == kGoHome) return false;
-    if (message.tag == kFile) {
+    if (message.tag == tag::go_home) return false;
+    if (message.tag == tag::file) {
       require_readable(message.bytes);
-      session_.send(0, kSeen, {});
+      session_.send(0, tag::seen, {});
       return true;
     }
     const Told told = told_in(message.bytes);
-    if (message.tag == kStart) {
+    if (message.tag == tag::start) {
       life_ = told.life;
       pool_.start(0);
       is_at_work_ = true;  // at its start
-    } else if (message.tag == kUnit) {
+    } else if (message.tag == tag::unit) {
       unit_ = parse_unit(told.text).id;
       pool_.hand_out(0, parse_unit(told.text));
       is_at_work_ = true;
@@ -201,11 +203,11 @@ class Rank {
     is_at_work_ = false;
     switch (event.kind) {
       case PoolEvent::Kind::ready:
-        return session_.send(0, kReady, with_life(life_, {}));
+        return session_.send(0, tag::ready, with_life(life_, {}));
       case PoolEvent::Kind::answered:
-        return session_.send(0, kAnswer, with_life(life_, answer_line(unit_, event.outcome)));
+        return session_.send(0, tag::answer, with_life(life_, answer_line(unit_, event.outcome)));
       case PoolEvent::Kind::lost:
-        return session_.send(0, kLost, with_life(life_, event.how));
+        return session_.send(0, tag::lost, with_life(life_, event.how));
     }
   }
 
@@ -222,10 +224,10 @@ void serve_rank(const MpiSession& session, const std::vector<std::string>& comma
   try {
     Rank(session, command).serve();
   } catch (const Error& error) {
-    session.send(0, kFailed, error.what());
+    session.send(0, tag::failed, error.what());
     // The first rank ends with this message, and sends all home.
     Backoff backoff;
-    for (auto message = session.receive(); !message || message->tag != kGoHome;
+    for (auto message = session.receive(); !message || message->tag != tag::go_home;
          message = session.receive()) {
       backoff.wait(-1);
     }
