@@ -1,4 +1,4 @@
-// Rectangles of faces: drawn as instances of one square, coloured a face by a texture.
+// Rectangles of faces: four vertices each, coloured a face by a texture.
 "use strict";
 
 const faces = {};
@@ -21,7 +21,9 @@ void main() {
   float axis = floor(normal / 2.0);
   bool positive = mod(normal, 2.0) > 0.5;
   // Outside is where corners run counter-clockwise.
-  vec2 place = vec2(positive ? position.x : 1.0 - position.x, position.y) * vec2(width, rows);
+  int corner = gl_VertexID & 3;
+  bool isFar = corner == 1 || corner == 2;
+  vec2 place = vec2(isFar == positive ? width : 0.0, corner > 1 ? rows : 0.0);
   vec3 along = vec3(positive ? 1.0 : 0.0, place);  // across, along width, along height
   vec3 cell = axis < 0.5 ? along.xyz : axis < 1.5 ? along.zxy : along.yzx;
   vec3 p = (rectangle.xyz + cell - origin) * resolution;
@@ -76,9 +78,6 @@ void main() {
   gl_FragColor = vec4(colour * shade, 1.0);
 }`;
 
-// Four corners of a square, two triangles.
-const kCorners = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
-
 /** A texture of bytes or colours that is read by whole texels. */
 faces.texture = (texels, width, rows, format, type = THREE.UnsignedByteType) => {
   const texture = new THREE.DataTexture(texels, width, rows, format, type);
@@ -120,12 +119,23 @@ faces.sharedUniforms = () => ({
 
 /** A mesh of a set. `look`: {side, opacity, colour}; opaque sets are coloured by their values. */
 faces.mesh = (set, shared, look = {}) => {
-  const geometry = new THREE.InstancedBufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(kCorners, 3));
-  geometry.setIndex([0, 1, 2, 0, 2, 3]);
-  geometry.setAttribute("rectangle", new THREE.InstancedBufferAttribute(set.rectangles, 4));
-  geometry.setAttribute("firstFace", new THREE.InstancedBufferAttribute(set.firstFace, 1));
-  geometry.maxInstancedCount = set.count;
+  // Each number four times: instances of a square would be fewer bytes, but many times slower.
+  const rectangles = new Uint16Array(16 * set.count);
+  const firstFace = new Float32Array(4 * set.count);
+  const index = new Uint32Array(6 * set.count);
+  for (let i = 0; i < set.count; ++i) {
+    const rectangle = set.rectangles.subarray(4 * i, 4 * i + 4);
+    for (let corner = 0; corner < 4; ++corner) rectangles.set(rectangle, 16 * i + 4 * corner);
+    firstFace.fill(set.firstFace[i], 4 * i, 4 * i + 4);
+    const v = 4 * i;
+    index.set([v, v + 1, v + 2, v, v + 2, v + 3], 6 * i);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  const keys = new THREE.BufferAttribute(rectangles, 4);
+  geometry.setAttribute("rectangle", keys);
+  geometry.setAttribute("position", keys);  // three.js draws nothing without
+  geometry.setAttribute("firstFace", new THREE.BufferAttribute(firstFace, 1));
   const width = 4096;
   const rows = Math.max(1, Math.ceil(set.values.length / width));
   const values = new Uint8Array(width * rows);
@@ -149,7 +159,7 @@ faces.mesh = (set, shared, look = {}) => {
     }),
   });
   const mesh = new THREE.Mesh(geometry, material);
-  mesh.frustumCulled = false;  // the square says nothing of where its instances are
+  mesh.frustumCulled = false;  // three.js does not know where the vertices are
   return mesh;
 };
 

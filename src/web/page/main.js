@@ -219,6 +219,10 @@
 
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", page.redraw);
   page.renderer = renderer;
+  page.turn = angle_rad => {
+    eye.position.sub(controls.target).applyAxisAngle(eye.up, angle_rad).add(controls.target);
+    eye.lookAt(controls.target);
+  };
   page.isReady = true;
 })().catch(error => {
   page.element("notice").hidden = false;
