@@ -11,22 +11,30 @@
 #include "core/atomic_file.hpp"
 #include "nbvopt/core/version.hpp"
 
+namespace nbvopt {
+namespace {
+
+void describe(const std::filesystem::path& folder) {
+  const auto app = make_app();
+  std::filesystem::create_directories(folder / "man1");
+  for (const Command& command : all_commands(*app)) {
+    write_file_atomically(folder / "man1" / (page_name(command) + ".1"),
+                          man_page(command, version()));
+  }
+  write_file_atomically(folder / app->get_name(), bash_completion(*app));
+  write_file_atomically(folder / ("_" + app->get_name()), zsh_completion(*app));
+}
+
+}  // namespace
+}  // namespace nbvopt
+
 int main(int argc, char** argv) {
-  using namespace nbvopt;
   if (argc != 2) {
     std::fputs("usage: nbvopt_describe FOLDER\n", stderr);
     return 2;
   }
   try {
-    const std::filesystem::path folder = argv[1];
-    const auto app = make_app();
-    std::filesystem::create_directories(folder / "man1");
-    for (const Command& command : all_commands(*app)) {
-      write_file_atomically(folder / "man1" / (page_name(command) + ".1"),
-                            man_page(command, version()));
-    }
-    write_file_atomically(folder / app->get_name(), bash_completion(*app));
-    write_file_atomically(folder / ("_" + app->get_name()), zsh_completion(*app));
+    nbvopt::describe(argv[1]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nbvopt_describe: %s\n", error.what());

@@ -233,8 +233,9 @@ UrdfChain read_urdf_chain(const std::string& text, const std::string& name,
     way.push_back(joint);
     link = joint->parent_link_name;
   }
-  for (auto joint = way.rbegin(); joint != way.rend(); ++joint) {
-    chain.joints.push_back(chain_joint(**joint, name, chain.warnings));
+  std::reverse(way.begin(), way.end());
+  for (const urdf::Joint* joint : way) {
+    chain.joints.push_back(chain_joint(*joint, name, chain.warnings));
   }
   return chain;
 }
