@@ -95,6 +95,7 @@ QueryAnswer search_map(const QueryOptions& options) {
   if (hazards) planner.set_hazards(*hazards);
   answer.result = planner.plan(request, *solver);
   write_explanations(options, planner, answer.result);
+  answer.result.request.joints = request.joints;  // as asked: a server's client knows no limits
   return answer;
 }
 
