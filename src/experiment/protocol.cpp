@@ -71,9 +71,9 @@ std::optional<Outcome> parse_answer(std::string_view line, const std::string& un
   Outcome outcome{.answer = answer.value("answer", Json()), .busy_ms = busy_ms.get<double>()};
   const Json failure = answer.value("failure", Json());
   if (outcome.answer.is_object() && failure.is_null()) return outcome;
-  if (!outcome.answer.is_null() || !failure.is_string() || failure == "") return std::nullopt;
+  if (!outcome.answer.is_null() || !failure.is_string()) return std::nullopt;
   outcome.failure = failure.get<std::string>();
-  return outcome;
+  return outcome.failure.empty() ? std::nullopt : std::optional(outcome);
 }
 
 }  // namespace nbvopt::experiment
