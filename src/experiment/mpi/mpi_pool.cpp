@@ -189,8 +189,9 @@ class Rank {
       pool_.start(0);
       is_at_work_ = true;  // at its start
     } else if (message.tag == tag::unit) {
-      unit_ = parse_unit(told.text).id;
-      pool_.hand_out(0, parse_unit(told.text));
+      const Unit unit = parse_unit(told.text);
+      unit_ = unit.id;
+      pool_.hand_out(0, unit);
       is_at_work_ = true;
     } else {
       pool_.stop(0);
