@@ -30,8 +30,7 @@ BasePoses Localiser::at(double time_s) {
   const Transform T_world_base = trajectory_.T_map_base(time_s);
   latest_ = {T_world_base, T_world_base};
   if (!odometry_) return latest_;
-  PlanarPose believed = odometry_->T_odom_base(time_s);
-  if (slam_) believed = slam_->T_map_odom(time_s) * believed;
+  const PlanarPose believed = slam_ ? slam_->T_map_base(time_s) : odometry_->T_odom_base(time_s);
   latest_.T_map_base =
       base_pose(believed.x_m, believed.y_m, T_world_base.translation().z(), believed.yaw_rad);
   errors_.add((latest_.T_map_base.translation() - T_world_base.translation()).norm());

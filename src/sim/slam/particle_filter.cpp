@@ -72,8 +72,13 @@ void ParticleFilter::update(const PlanarPose& motion, std::span<const PlaneBeam>
   resample();
 }
 
-const PlanarPose& ParticleFilter::T_map_base() const {
-  return std::ranges::max_element(particles_, {}, &Particle::log_likelihood)->T_map_base;
+PlanarPose ParticleFilter::fit(const PlanarPose& guess_T_map_base,
+                               std::span<const PlaneBeam> scan) const {
+  return match_scan(best().grid, hits_of(scan), guess_T_map_base).T_map_base;
+}
+
+const ParticleFilter::Particle& ParticleFilter::best() const {
+  return *std::ranges::max_element(particles_, {}, &Particle::log_likelihood);
 }
 
 void ParticleFilter::resample() {

@@ -26,7 +26,10 @@ class ParticleFilter {
   void update(const PlanarPose& motion, std::span<const PlaneBeam> scan);
 
   /// By the particle whose scans were the most likely, over its whole way.
-  const PlanarPose& T_map_base() const;
+  const PlanarPose& T_map_base() const { return best().T_map_base; }
+
+  /// Where a scan, which is not entered, fits into that particle's map, from a guess.
+  PlanarPose fit(const PlanarPose& guess_T_map_base, std::span<const PlaneBeam> scan) const;
 
  private:
   struct Particle {
@@ -35,6 +38,8 @@ class ParticleFilter {
     double log_likelihood;  ///< over all scans
     TileGrid grid;
   };
+
+  const Particle& best() const;
 
   /// Replaces the particles by such as are drawn by their weights, where few of them carry most of
   /// the weight.

@@ -18,7 +18,9 @@ Slam::Slam(const Scene& scene, const Trajectory& trajectory, const Odometry& odo
       lidar_range_m_(options.lidar_range_m),
       bystanders_(bystanders_of(scene, options.people, seed)),
       filter_(MotionModel(options.odometry_noise), odometry.steps().front().T_world_base,
-              first_scan(), seed) {}
+              first_scan(), seed),
+      T_map_base_(filter_.T_map_base()),
+      T_odom_base_(odometry.steps().front().T_odom_base) {}
 
 std::vector<PlaneBeam> Slam::scan(double time_s) {
   const Transform T_world_base = trajectory_.T_map_base(time_s);
@@ -40,7 +42,7 @@ std::vector<PlaneBeam> Slam::first_scan() {
                    "walls, or use the pose source odom or truth");
 }
 
-PlanarPose Slam::T_map_odom(double time_s) {
+PlanarPose Slam::T_map_base(double time_s) {
   const std::span<const DriveStep> steps = odometry_.steps();
   while (scans_ + 1 < steps.size() && steps[scans_ + 1].begin_s <= time_s) {
     const DriveStep& before = steps[scans_++];
@@ -51,9 +53,15 @@ PlanarPose Slam::T_map_odom(double time_s) {
     computing_ms_ += stopwatch.elapsed_ms();
     const PlanarPose error = inverse(now.T_world_base) * filter_.T_map_base();
     errors_.add(std::hypot(error.x_m, error.y_m));
-    T_map_odom_ = filter_.T_map_base() * inverse(now.T_odom_base);
+    T_map_base_ = filter_.T_map_base();
+    T_odom_base_ = now.T_odom_base;
   }
-  return T_map_odom_;
+  if (time_s > steps[scans_].begin_s) {
+    const PlanarPose T_odom_base = odometry_.T_odom_base(time_s);
+    T_map_base_ = filter_.fit(T_map_base_ * inverse(T_odom_base_) * T_odom_base, scan(time_s));
+    T_odom_base_ = T_odom_base;
+  }
+  return T_map_base_;
 }
 
 }  // namespace nbvopt

@@ -16,7 +16,9 @@
 
 namespace nbvopt {
 
-/// Follows a drive with a lidar and corrects the wheels, as slam_gmapping does for ROS.
+/// Follows a drive with a lidar and corrects the wheels, as slam_gmapping does for ROS. Scans enter
+/// the particles' maps as rarely as there; whoever asks for a pose between two of them gets that of
+/// a scan taken then, where it fits into the best particle's map.
 class Slam {
  public:
   /// Throws InputError when the lidar sees nothing from the start, and as Bystanders does. All must
@@ -24,11 +26,10 @@ class Slam {
   Slam(const Scene& scene, const Trajectory& trajectory, const Odometry& odometry,
        const LocalisationOptions& options, std::uint64_t seed);
 
-  /// T_map_base of the best particle after the latest scan up to that time, by what the wheels told
-  /// then. Times must not go back.
-  PlanarPose T_map_odom(double time_s);
+  /// As believed then. Times must not go back.
+  PlanarPose T_map_base(double time_s);
 
-  std::uint64_t scan_count() const { return scans_; }    ///< processed so far, without the first
+  std::uint64_t scan_count() const { return scans_; }    ///< entered so far, without the first
   double computing_ms() const { return computing_ms_; }  ///< that they took, all in all
   const PositionError& errors() const { return errors_.summary(); }  ///< right after them
 
@@ -46,7 +47,9 @@ class Slam {
   std::size_t scans_ = 0;
   PositionErrors errors_;
   double computing_ms_ = 0.0;
-  PlanarPose T_map_odom_;
+  /// The latest pose that was believed in, and what the wheels told then.
+  PlanarPose T_map_base_;
+  PlanarPose T_odom_base_;
 };
 
 }  // namespace nbvopt

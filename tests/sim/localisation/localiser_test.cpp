@@ -76,8 +76,8 @@ TEST(Localiser, DriftsByOdometryAndHoldsItsCourseBySlam) {
   EXPECT_GT(odom.captures.largest_m, 1.0);
   EXPECT_LT(slam.captures.mean_m, 0.1 * odom.captures.mean_m);
   EXPECT_LT(slam.captures.largest_m, 0.1 * odom.captures.largest_m);
-  EXPECT_LT(slam.captures.mean_m, 0.1);
-  EXPECT_LT(slam.scans.largest_m, 0.1) << "between scans the wheels are on their own";
+  EXPECT_LT(slam.captures.largest_m, 0.1);
+  EXPECT_LT(slam.scans.largest_m, 0.1);
   EXPECT_GT(slam.scan_count, 40U);
   EXPECT_EQ(odom.scan_count, 0U);
 }
