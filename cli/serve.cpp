@@ -117,6 +117,7 @@ void run_serve(ServeOptions& options) {
   const ServiceManager manager = ServiceManager::from_environment();
   Server server(server_options);
   print_answer("listening on " + server.address() + "\n");
+  if (!server.web_address().empty()) print_answer("page at " + server.web_address() + "\n");
   manager.notify("READY=1");
   const int signal = wait_alive(manager, server, signals);
   manager.notify("STOPPING=1");
@@ -164,6 +165,8 @@ void add_limits(CLI::App& serve, ServerLimits& limits) {
                    "of older maps that clients still take, when another asks for one");
   add_whole_number(serve, "--max-connections", limits.max_connections, 1, kMost,
                    "of clients; fewer where the system allows few open files");
+  add_whole_number(serve, "--max-web-connections", limits.max_web_connections, 2, 1000,
+                   "of browsers and monitors");
   add_whole_number(serve, "--max-waiting", limits.max_waiting, 1, kMost,
                    "calls of a client that wait for a thread; more are refused with "
                    "RESOURCE_EXHAUSTED");
@@ -177,6 +180,11 @@ void add_access(CLI::App& serve, ServerOptions& options) {
                   "of this machine need the certificates below")
       ->type_name("ADDRESS")
       ->capture_default_str();
+  serve
+      .add_option("--web", options.web,
+                  "also show figures for Prometheus, by HTTP under /metrics: HOST:PORT of this "
+                  "machine (port 0: one that is free) or unix:PATH [none]")
+      ->type_name("ADDRESS");
   add_pem(serve, "--tls-cert", options.tls.certificate, "the server's certificate");
   add_pem(serve, "--tls-key", options.tls.key, "its private key");
   add_pem(serve, "--tls-client-ca", options.tls.client_ca, "who signs the certificates of callers");

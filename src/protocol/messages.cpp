@@ -105,16 +105,6 @@ v1::Certificate to_message(const Certificate& certificate) {
   return message;
 }
 
-void add_hazards(const HazardTable& hazards, v1::PlanReply& reply) {
-  const std::vector<std::string> names = hazard_context_names();
-  for (std::size_t context = 0; context < names.size(); ++context) {
-    v1::HazardCount& count = *reply.add_hazards();
-    count.set_context(names[context]);
-    count.set_hits(hazards.count(context).hits);
-    count.set_metres(hazards.count(context).metres);
-  }
-}
-
 constexpr std::size_t kPointBytes = 3 * sizeof(float);
 
 void check_points(std::uint64_t points, std::uint64_t max_points) {
@@ -296,9 +286,13 @@ PlanRequest from_message(const v1::PlanRequest& message) {
   return request;
 }
 
+PlanStatus from_message(v1::PlanStatus status) {
+  return value_in(kStatuses, status).value_or(PlanStatus::not_run);
+}
+
 PlanResult from_message(const v1::PlanReply& reply) {
   PlanResult result;
-  result.status = value_in(kStatuses, reply.status()).value_or(PlanStatus::not_run);
+  result.status = from_message(reply.status());
   result.message = reply.message();
   result.joints = from_message(reply.joints(), "joints");
   result.T_map_sensor = from_message(reply.sensor(), "sensor");
@@ -432,9 +426,13 @@ v1::PlanRequest to_message(const PlanRequest& request) {
   return message;
 }
 
+v1::PlanStatus to_message(PlanStatus status) {
+  return name_in(kStatuses, status).value_or(v1::PLAN_STATUS_UNSPECIFIED);
+}
+
 v1::PlanReply to_message(const PlanResult& result) {
   v1::PlanReply reply;
-  reply.set_status(name_in(kStatuses, result.status).value_or(v1::PLAN_STATUS_UNSPECIFIED));
+  reply.set_status(to_message(result.status));
   reply.set_message(result.message);
   *reply.mutable_joints() = to_message(result.joints);
   *reply.mutable_sensor() = to_message(result.T_map_sensor);
@@ -451,10 +449,21 @@ v1::PlanReply to_message(const PlanResult& result) {
   reply.set_solver(result.solver);
   reply.set_seed(result.seed);
   reply.set_map_version(result.map_version);
-  if (result.hazards) add_hazards(*result.hazards, reply);
+  if (result.hazards) add_to(*reply.mutable_hazards(), *result.hazards);
   if (result.certificate) *reply.mutable_certificate() = to_message(*result.certificate);
   for (const std::string& warning : result.warnings) reply.add_warnings(warning);
   return reply;
+}
+
+void add_to(google::protobuf::RepeatedPtrField<v1::HazardCount>& counts,
+            const HazardTable& hazards) {
+  const std::vector<std::string> names = hazard_context_names();
+  for (std::size_t context = 0; context < names.size(); ++context) {
+    v1::HazardCount& count = *counts.Add();
+    count.set_context(names[context]);
+    count.set_hits(hazards.count(context).hits);
+    count.set_metres(hazards.count(context).metres);
+  }
 }
 
 v1::PointCloud to_message(const Scan& scan) {

@@ -26,6 +26,7 @@ MapFormat from_message(v1::MapFormat format);
 /// Without the stop rule's deadline.
 PlanRequest from_message(const v1::PlanRequest& request);
 PlanResult from_message(const v1::PlanReply& reply);
+PlanStatus from_message(v1::PlanStatus status);
 
 /// T_map_sensor of a view; `mast` turns joints into poses.
 Transform from_message(const v1::View& view, const Mast& mast, const std::string& field);
@@ -39,8 +40,13 @@ v1::JointPosition to_message(const JointPosition& joints);
 v1::Search to_message(const Search& search);
 v1::ViewGain to_message(const ViewGain& view);
 v1::MapFormat to_message(MapFormat format);
+v1::PlanStatus to_message(PlanStatus status);
 v1::PlanRequest to_message(const PlanRequest& request);
 v1::PlanReply to_message(const PlanResult& result);
 v1::PointCloud to_message(const Scan& scan);
+
+/// Adds the contexts of the table, by name.
+void add_to(google::protobuf::RepeatedPtrField<v1::HazardCount>& counts,
+            const HazardTable& hazards);
 
 }  // namespace nbvopt

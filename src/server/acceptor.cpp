@@ -57,10 +57,10 @@ Heard listen_to(const Descriptor& socket) {
 
 }  // namespace
 
-SocketBudget socket_budget(std::size_t max_connections) {
+SocketBudget socket_budget(std::size_t max_connections, std::size_t promised) {
   rlimit limit{};
   ::getrlimit(RLIMIT_NOFILE, &limit);
-  const std::size_t used = open_descriptors() + kKeptDescriptors;
+  const std::size_t used = open_descriptors() + kKeptDescriptors + promised;
   constexpr std::size_t kLeast = 8;
   if (limit.rlim_cur < used + kLeast) {
     throw UsageError("the system allows " + std::to_string(limit.rlim_cur) +

@@ -27,8 +27,9 @@ struct SocketBudget {
 };
 
 /// What the limit of descriptors allows, at most `max_connections`: some are kept for snapshots and
-/// the clients' maps. Throws UsageError that names the limit where it is too low for any.
-SocketBudget socket_budget(std::size_t max_connections);
+/// the clients' maps, and `promised` ones that others will open. Throws UsageError that names the
+/// limit where it is too low for any.
+SocketBudget socket_budget(std::size_t max_connections, std::size_t promised = 0);
 
 /// A thread that accepts connections from its construction until stop().
 ///

@@ -8,6 +8,13 @@ constexpr std::array kMethodNames{"Plan",    "PlanStream", "Evaluate", "InsertSc
 
 static_assert(kMethodNames.size() == kMethodCount);
 
+constexpr std::array kCodeNames{
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
+static_assert(kCodeNames.size() == kStatusCodes);
+
 }  // namespace
 
 const char* name_of(Method method) { return kMethodNames.at(static_cast<std::size_t>(method)); }
@@ -18,7 +25,16 @@ void CallLog::write(v1::GetStatusReply& reply) const {
     v1::Latency& latency = *reply.add_latencies();
     latency.set_method(kMethodNames[i]);
     latency.set_calls(counts.calls);
-    latency.set_failed(entries_[i].failed);
+    std::uint64_t failed = 0;
+    for (std::size_t code = 0; code < kStatusCodes; ++code) {
+      const std::uint64_t calls = entries_[i].failed[code];
+      if (calls == 0) continue;
+      failed += calls;
+      v1::FailureCount& failure = *latency.add_failures();
+      failure.set_code(kCodeNames[code]);
+      failure.set_calls(calls);
+    }
+    latency.set_failed(failed);
     latency.set_shed(entries_[i].shed);
     latency.set_sum_ms(counts.sum_ms);
     latency.set_max_ms(counts.max_ms);

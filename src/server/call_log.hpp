@@ -1,6 +1,8 @@
 // How calls went: latencies, errors and what was shed, by method.
 #pragma once
 
+#include <grpcpp/support/status_code_enum.h>
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -24,6 +26,7 @@ enum class Method {
 };
 
 constexpr std::size_t kMethodCount = 10;
+constexpr std::size_t kStatusCodes = grpc::StatusCode::UNAUTHENTICATED + 1;
 
 /// As in planner.proto.
 const char* name_of(Method method);
@@ -32,7 +35,9 @@ const char* name_of(Method method);
 class CallLog {
  public:
   void record_answer(Method method, double elapsed_ms) { of(method).latency.record(elapsed_ms); }
-  void record_failure(Method method) { ++of(method).failed; }
+  void record_failure(Method method, grpc::StatusCode code) {
+    ++of(method).failed.at(static_cast<std::size_t>(code));
+  }
   void record_shed(Method method) { ++of(method).shed; }
 
   /// Adds the figures of all methods.
@@ -41,7 +46,7 @@ class CallLog {
  private:
   struct Entry {
     LatencyHistogram latency;
-    std::atomic<std::uint64_t> failed{0};
+    std::array<std::atomic<std::uint64_t>, kStatusCodes> failed{};  ///< by grpc::StatusCode
     std::atomic<std::uint64_t> shed{0};
   };
   Entry& of(Method method) { return entries_[static_cast<std::size_t>(method)]; }

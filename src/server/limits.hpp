@@ -26,6 +26,8 @@ struct ServerLimits {
   std::int64_t max_pinned_mib = 256;
   /// Of clients; fewer where the system allows the process few descriptors.
   std::int64_t max_connections = 256;
+  /// Of browsers and monitors; half of them may stay and be told of changes.
+  std::int64_t max_web_connections = 32;
 };
 
 /// How many streams are open: each holds memory of its own.
@@ -49,6 +51,8 @@ class OpenStreams {
     OpenStreams& streams_;
     bool is_taken_;
   };
+
+  std::int64_t open() const { return open_; }
 
  private:
   const std::int64_t most_;
@@ -77,6 +81,8 @@ class MessageMemory {
     std::size_t bytes_;
     bool is_granted_;
   };
+
+  std::size_t taken_bytes() const { return taken_; }
 
  private:
   bool take(std::size_t bytes) {

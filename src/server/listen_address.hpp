@@ -23,8 +23,11 @@ struct ListenAddress {
   bool is_local = false;  ///< a Unix socket or a loopback address: this machine only
 };
 
-/// "unix:PATH" or "HOST:PORT". Throws UsageError for anything else.
-ListenAddress parse_listen_address(const std::string& text);
+/// Whether a host's name or address, without brackets, is this machine's own.
+bool is_loopback(const std::string& host);
+
+/// "unix:PATH" or "HOST:PORT". Throws UsageError, which names `field`, for anything else.
+ListenAddress parse_listen_address(const std::string& text, const std::string& field = "listen");
 
 /// Throws UsageError where an address that others can reach comes without all three files, or a
 /// local one with any.

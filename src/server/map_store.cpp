@@ -19,7 +19,7 @@ MapStore::MapStore(const Robot& robot, const ServerLimits& limits, UncertaintyMa
       map_(std::move(map)),
       extent_m_(checked_extent_m(map_)),
       hazards_(hazards) {
-  publish(VoxelGrid::whole(map_, version));
+  publish(VoxelGrid::whole(map_, version), map_.memory_bytes());
 }
 
 std::shared_ptr<const ViewPlanner> MapStore::published() const {
@@ -27,7 +27,8 @@ std::shared_ptr<const ViewPlanner> MapStore::published() const {
   return published_;
 }
 
-void MapStore::publish(std::shared_ptr<const VoxelGrid> grid) {
+void MapStore::publish(std::shared_ptr<const VoxelGrid> grid, std::uint64_t tree_bytes) {
+  map_bytes_ = tree_bytes + grid->memory_bytes();
   auto published = std::make_shared<const ViewPlanner>(grid, robot_, hazards_);
   grid_ = std::move(grid);
   const std::scoped_lock lock(published_mutex_);
@@ -68,7 +69,7 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
   extent_m_ = extent_m;
   hazards_ = hazards;
   is_grid_behind_ = true;
-  publish(grid_->updated(insertion.result.changes));
+  publish(grid_->updated(insertion.result.changes), map_.memory_bytes());
   is_grid_behind_ = false;
   insertion.version = grid_->version();
   return insertion;
@@ -77,7 +78,7 @@ MapStore::Insertion MapStore::insert(const Scan& scan, const Transform& T_map_se
 std::uint64_t MapStore::replace(UncertaintyMap map) {
   const Eigen::AlignedBox3d extent_m = checked_extent_m(map);
   const std::scoped_lock lock(tree_mutex_);
-  publish(VoxelGrid::whole(map, grid_->version() + 1));
+  publish(VoxelGrid::whole(map, grid_->version() + 1), map.memory_bytes());
   map_ = std::move(map);
   image_.forget_all();
   extent_m_ = extent_m;

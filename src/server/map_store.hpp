@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -71,6 +72,11 @@ class MapStore {
   /// What readers hold of copies that the map has left behind, bytes.
   std::uint64_t pinned_bytes() const;
 
+  /// What the newest version takes, tree and bricks, bytes.
+  std::uint64_t map_bytes() const { return map_bytes_; }
+  /// What copies for snapshots and readers take, bytes.
+  std::uint64_t copy_bytes() const { return held_.bytes(); }
+
   /// Counts, kept until the map changes.
   VersionedCounts counts() const;
 
@@ -86,13 +92,17 @@ class MapStore {
   std::string limit_text() const;
   /// The newest version as an .ot with everything in it.
   MapBytes copy() const;
-  void publish(std::shared_ptr<const VoxelGrid> grid);
+  /// `tree_bytes` is what the grid's tree takes.
+  void publish(std::shared_ptr<const VoxelGrid> grid, std::uint64_t tree_bytes);
   /// Publishes the tree as it is, whatever the grid holds.
-  void publish_whole() { publish(VoxelGrid::whole(map_, grid_->version() + 1)); }
+  void publish_whole() {
+    publish(VoxelGrid::whole(map_, grid_->version() + 1), map_.memory_bytes());
+  }
 
   const Robot robot_;
   const ServerLimits limits_;
   const HeldBytes held_;  ///< of what bytes() gives away
+  std::atomic<std::uint64_t> map_bytes_{0};
 
   mutable std::mutex tree_mutex_;  ///< of what follows
   UncertaintyMap map_;

@@ -77,7 +77,7 @@ class MapStreamCall final : public grpc::ServerWriteReactor<v1::MapChunk>, priva
   /// Called by the watch and by the write that it ended, in either order; the last ends the stream.
   void end_stalled() {
     if (!is_half_ended_.exchange(true)) return;
-    log_.record_failure(Method::get_map);
+    log_.record_failure(Method::get_map, grpc::StatusCode::DEADLINE_EXCEEDED);
     Finish({grpc::StatusCode::DEADLINE_EXCEEDED, "the map was not taken, see max_send_s"});
   }
 

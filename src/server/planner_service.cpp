@@ -114,14 +114,19 @@ void PlannerService::add_status() {
     return request.with_counts() ? storage_ : status_;
   };
   add_unary<v1::GetStatusRequest, v1::GetStatusReply>(
-      Method::get_status, queue_of, [this](const auto& request, const CallLimits&) {
-        v1::GetStatusReply reply = handler_.status(request);
-        const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - start_;
-        reply.set_uptime_s(uptime.count());
-        log_.write(reply);
-        connections_.write(reply);
-        return reply;
-      });
+      Method::get_status, queue_of,
+      [this](const auto& request, const CallLimits&) { return status(request); });
+}
+
+v1::GetStatusReply PlannerService::status(const v1::GetStatusRequest& request) const {
+  v1::GetStatusReply reply = handler_.status(request);
+  const std::chrono::duration<double> uptime = std::chrono::steady_clock::now() - start_;
+  reply.set_uptime_s(uptime.count());
+  log_.write(reply);
+  connections_.write(reply);
+  reply.set_streams(static_cast<std::uint64_t>(streams_.open()));
+  reply.set_message_bytes(memory_.taken_bytes());
+  return reply;
 }
 
 }  // namespace nbvopt

@@ -31,6 +31,9 @@ class PlannerService final : public grpc::Service {
   PlannerService(RequestHandler& handler, const ConnectionLog& connections,
                  std::size_t planning_threads);
 
+  /// What GetStatus answers.
+  v1::GetStatusReply status(const v1::GetStatusRequest& request) const;
+
  private:
   void add(Method method, grpc::internal::RpcMethod::RpcType type,
            grpc::internal::MethodHandler* handler);

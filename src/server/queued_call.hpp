@@ -63,8 +63,8 @@ grpc::Status logged(CallLog& log, Method method, StopRule::Clock::time_point rec
     log.record_answer(method, elapsed.count());
     return grpc::Status::OK;
   } catch (const std::exception& error) {
-    log.record_failure(method);
     grpc::Status status = status_of(error);
+    log.record_failure(method, status.error_code());
     if (status.error_code() == grpc::StatusCode::INTERNAL) {
       spdlog::error("event=internal_error error=\"{}\"", error.what());
     }

@@ -40,6 +40,29 @@ std::string log_text(std::string text) {
   return text;
 }
 
+void write_limits(const ServerLimits& limits, v1::GetStatusReply& reply) {
+  const auto add = [&](const char* name, auto value) {
+    v1::Limit& limit = *reply.add_limits();
+    limit.set_name(name);
+    limit.set_value(static_cast<double>(value));
+  };
+  add("max_message_mib", limits.max_message_mib);
+  add("max_scan_points", limits.max_scan_points);
+  add("max_views", limits.max_views);
+  add("max_map_extent_m", limits.max_map_extent_m);
+  add("min_resolution_m", limits.min_resolution_m);
+  add("max_map_mib", limits.max_map_mib);
+  add("max_compute_ms", limits.max_compute_ms);
+  add("max_waiting", limits.max_waiting);
+  add("max_streams", limits.max_streams);
+  add("max_buffered_mib", limits.max_buffered_mib);
+  add("max_receive_s", limits.max_receive_s);
+  add("max_send_s", limits.max_send_s);
+  add("max_pinned_mib", limits.max_pinned_mib);
+  add("max_connections", limits.max_connections);
+  add("max_web_connections", limits.max_web_connections);
+}
+
 }  // namespace
 
 RequestHandler::RequestHandler(MapStore& store, const SnapshotKeeper* snapshots,
@@ -78,7 +101,9 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
     const double limit_ms = std::min(message.time_limit_ms(), limits_.max_compute_ms);
     stop_at_latest(request.stop, received, limit_ms);
   }
-  v1::PlanReply reply = to_message(planner->plan(request, *solver));
+  const PlanResult result = planner->plan(request, *solver);
+  plans_.record(result.status);
+  v1::PlanReply reply = to_message(result);
   reply.set_counting(to_string(store_.robot().sensor.counting));
   if (message.has_request_id()) reply.set_request_id(message.request_id());
   return reply;
@@ -121,6 +146,10 @@ v1::InsertScanReply RequestHandler::insert_scan(const v1::InsertScanRequest& mes
   const Transform T_map_sensor = from_message(message.sensor(), "sensor");
   const Scan scan = scan_from_message(message, static_cast<std::uint64_t>(limits_.max_scan_points));
   const auto [result, version] = store_.insert(scan, T_map_sensor, cancel);
+  scan_totals_.points_used += result.points_used;
+  scan_totals_.points_ignored += result.points_ignored;
+  scan_totals_.voxels_changed += result.changes.size();
+  scan_totals_.information_gained += result.information_gained;
   v1::InsertScanReply reply;
   reply.set_map_version(version);
   reply.set_durable_version(durable_version());
@@ -187,9 +216,21 @@ v1::GetStatusReply RequestHandler::status(const v1::GetStatusRequest& message) c
   reply.set_version(version());
   reply.set_versions(server_version_report());
   reply.set_run_id(run_id_);
-  const std::shared_ptr<const VoxelGrid> grid = store_.published()->grid();
-  reply.set_map_version(grid->version());
-  reply.set_resolution_m(grid->lattice().resolution_m());
+  const std::shared_ptr<const ViewPlanner> planner = store_.published();
+  reply.set_map_version(planner->map_version());
+  reply.set_resolution_m(planner->grid()->lattice().resolution_m());
+  reply.set_map_bytes(store_.map_bytes());
+  reply.set_map_copy_bytes(store_.copy_bytes());
+  if (planner->robot().sensor.gain.has(GainKind::expected)) {
+    add_to(*reply.mutable_hazards(), planner->hazards());
+  }
+  plans_.write(reply);
+  v1::ScanTotals& totals = *reply.mutable_scan_totals();
+  totals.set_points_used(scan_totals_.points_used);
+  totals.set_points_ignored(scan_totals_.points_ignored);
+  totals.set_voxels_changed(scan_totals_.voxels_changed);
+  totals.set_information_gained(scan_totals_.information_gained);
+  write_limits(limits_, reply);
   if (snapshots_ != nullptr) {
     const SnapshotKeeper::State state = snapshots_->state();
     reply.set_durable_version(state.durable_version);

@@ -1,10 +1,13 @@
 // What the server does with each request, without the network: a message in, a message out.
 #pragma once
 
+#include <atomic>
+
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/v1/planner.pb.h"
 #include "server/data_folder.hpp"
 #include "server/map_store.hpp"
+#include "server/plan_log.hpp"
 #include "server/snapshot_keeper.hpp"
 
 namespace nbvopt {
@@ -45,6 +48,14 @@ class RequestHandler {
   std::uint64_t run_id() const { return run_id_; }
 
  private:
+  /// Of all scans since the server started.
+  struct ScanTotals {
+    std::atomic<std::uint64_t> points_used{0};
+    std::atomic<std::uint64_t> points_ignored{0};
+    std::atomic<std::uint64_t> voxels_changed{0};
+    std::atomic<double> information_gained{0.0};
+  };
+
   /// The stop rule with the server's own limit of computing.
   StopRule limited(const StopRule& stop, StopRule::Clock::time_point received) const;
   /// Throws LimitError when a message is too large.
@@ -57,6 +68,8 @@ class RequestHandler {
   const DataFolder* data_;
   ServerLimits limits_;
   std::uint64_t run_id_;
+  mutable PlanLog plans_;
+  ScanTotals scan_totals_;
 };
 
 }  // namespace nbvopt

@@ -23,6 +23,7 @@
 #include "server/listening_socket.hpp"
 #include "server/planner_service.hpp"
 #include "server/snapshot_file.hpp"
+#include "server/web/web_server.hpp"
 
 namespace nbvopt {
 namespace {
@@ -73,6 +74,10 @@ struct Server::Parts {
     handler.emplace(*store, snapshots ? &*snapshots : nullptr, data ? &*data : nullptr,
                     options.limits);
     service.emplace(*handler, connection_log, options.planning_threads);
+    if (!options.web.empty()) {
+      web.emplace(options.web, options.limits,
+                  WebSources{.status = [this] { return service->status({}); }});
+    }
     listen();
   }
 
@@ -103,7 +108,9 @@ struct Server::Parts {
     std::vector<Descriptor> sockets = listen_on(address);
     start_server();
     const auto most = static_cast<std::size_t>(options.limits.max_connections);
-    const SocketBudget budget = socket_budget(most);
+    const std::size_t of_web =
+        web ? static_cast<std::size_t>(options.limits.max_web_connections) : 0;
+    const SocketBudget budget = socket_budget(most, of_web);
     if (budget.connections < most) {
       spdlog::warn("event=few_descriptors max_connections={} note=\"raise ulimit -n\"",
                    budget.connections);
@@ -159,6 +166,7 @@ struct Server::Parts {
 
   /// Calls in flight have until then.
   void stop_listening(std::chrono::system_clock::time_point calls_end_at) {
+    if (web) web->stop();
     if (acceptor) acceptor->stop();
     std::error_code ignored;
     if (address.socket) fs::remove(*address.socket, ignored);
@@ -175,6 +183,7 @@ struct Server::Parts {
   std::optional<RequestHandler> handler;
   ConnectionLog connection_log;
   std::optional<PlannerService> service;
+  std::optional<WebServer> web;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> connections;
   std::unique_ptr<grpc::Server> server;
   std::optional<Acceptor> acceptor;
@@ -183,6 +192,7 @@ struct Server::Parts {
 Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(options)) {
   spdlog::info("event=listening address=\"{}\" version={} map_version={}", address(), version(),
                parts_->store->published()->map_version());
+  if (parts_->web) spdlog::info("event=web address=\"{}\"", web_address());
   if (!parts_->snapshots) {
     spdlog::warn("event=no_snapshot note=\"the map is lost when the server ends\"");
   }
@@ -191,6 +201,8 @@ Server::Server(const ServerOptions& options) : parts_(std::make_unique<Parts>(op
 Server::~Server() { parts_->stop_listening(std::chrono::system_clock::now()); }
 
 std::string Server::address() const { return parts_->address.text; }
+
+std::string Server::web_address() const { return parts_->web ? parts_->web->address() : ""; }
 
 bool Server::answers_itself(std::chrono::milliseconds timeout) const {
   std::array<int, 2> pair{};

@@ -25,6 +25,7 @@ struct ServerOptions {
   std::chrono::milliseconds snapshot_every{10'000};
   std::filesystem::path data_folder;  ///< empty: clients name no files
   std::string listen = "127.0.0.1:50051";
+  std::string web;  ///< where WebServer listens; empty: nowhere
   TlsFiles tls;
   ServerLimits limits;
   std::size_t planning_threads = 2;
@@ -42,6 +43,9 @@ class Server {
 
   /// Where it listens, the port that the system chose for 0 filled in.
   std::string address() const;
+
+  /// Where browsers and monitors find it; empty where they do not.
+  std::string web_address() const;
 
   /// Whether its own call of GetStatus is answered within that time, and clients are let in. The
   /// call takes a connection of its own, which finds a place when no client does.

@@ -70,7 +70,7 @@ class UnaryCall final : public grpc::ServerBidiReactor<Request, Reply>, private 
   }
 
   void fail(const grpc::Status& status) {
-    parts_.log.record_failure(method_);
+    parts_.log.record_failure(method_, status.error_code());
     this->Finish(status);
   }
 

@@ -37,7 +37,7 @@ TEST(CallLog, TellsOfEveryMethod) {
   CallLog log;
   log.record_answer(Method::insert_scan, 2.0);
   log.record_answer(Method::insert_scans, 3.0);
-  log.record_failure(Method::plan);
+  log.record_failure(Method::plan, grpc::StatusCode::OUT_OF_RANGE);
   log.record_shed(Method::get_status);
   v1::GetStatusReply reply;
   log.write(reply);
@@ -45,6 +45,9 @@ TEST(CallLog, TellsOfEveryMethod) {
   ASSERT_EQ(reply.latencies_size(), 10);
   EXPECT_EQ(reply.latencies(0).method(), "Plan");
   EXPECT_EQ(reply.latencies(0).failed(), 1U);
+  ASSERT_EQ(reply.latencies(0).failures_size(), 1);
+  EXPECT_EQ(reply.latencies(0).failures(0).code(), "OUT_OF_RANGE");
+  EXPECT_EQ(reply.latencies(0).failures(0).calls(), 1U);
   EXPECT_EQ(reply.latencies(9).method(), "GetStatus");
   EXPECT_EQ(reply.latencies(9).shed(), 1U);
   const v1::Latency& scans = reply.latencies(3);

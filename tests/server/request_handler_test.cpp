@@ -209,5 +209,48 @@ TEST_F(RequestHandlerTest, TellsItsStatus) {
   EXPECT_THAT(reply.versions(), HasSubstr("gRPC"));
 }
 
+TEST_F(RequestHandlerTest, TellsWhatItHasDone) {
+  v1::InsertScanRequest scan;
+  *scan.mutable_sensor() = to_message(test::scan_pose(0));
+  *scan.mutable_points() = to_message(test::small_scan());
+  const v1::InsertScanReply inserted = handler.insert_scan(scan);
+  handler.insert_scan(scan);
+  v1::PlanRequest limited = to_message(test::small_request());
+  limited.set_max_evaluations(20);
+  const v1::PlanReply planned = plan(limited);
+  const v1::GetStatusReply reply = handler.status({});
+  EXPECT_EQ(reply.scan_totals().points_used(), 2 * inserted.points_used());
+  EXPECT_EQ(reply.scan_totals().points_ignored(), 2 * inserted.points_ignored());
+  EXPECT_GE(reply.scan_totals().voxels_changed(), inserted.voxels_changed());
+  EXPECT_GE(reply.scan_totals().information_gained(), inserted.information_gained());
+  for (const v1::PlanCount& count : reply.plans()) {
+    EXPECT_EQ(count.plans(), count.status() == planned.status() ? 1U : 0U);
+  }
+  EXPECT_EQ(reply.plans_size(), 7);
+  EXPECT_GT(reply.map_bytes(), 1000U);
+  EXPECT_EQ(reply.hazards_size(), 0);  // the gain is not expected
+  EXPECT_EQ(reply.limits_size(), 15);
+  EXPECT_EQ(reply.limits(2).name(), "max_views");
+  EXPECT_EQ(reply.limits(2).value(), 3.0);
+}
+
+TEST(RequestHandler, TellsWhatItsScansTaught) {
+  Robot robot = test::small_robot();
+  robot.sensor.gain = GainKind::expected;
+  MapStore store(robot, {}, test::small_map(), 1);
+  RequestHandler handler(store, nullptr, nullptr, {});
+  const double before = HazardTable().total().metres;
+  v1::InsertScanRequest scan;
+  const Transform T_map_base = base_pose(0.0, 0.0, 0.0, 3.0);  // away from the wall that is known
+  *scan.mutable_sensor() = to_message(T_map_base * test::scan_pose(0));
+  *scan.mutable_points() = to_message(test::small_scan());
+  handler.insert_scan(scan);
+  const v1::GetStatusReply reply = handler.status({});
+  double metres = 0.0;
+  for (const v1::HazardCount& count : reply.hazards()) metres += count.metres();
+  EXPECT_GT(metres, before);
+  EXPECT_NEAR(metres, store.published()->hazards().total().metres, 1e-9);
+}
+
 }  // namespace
 }  // namespace nbvopt

@@ -1,0 +1,18 @@
+// What the page's server has done.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "server/connection_log.hpp"
+
+namespace nbvopt {
+
+/// Safe to share between threads.
+struct WebLog {
+  ConnectionLog connections;
+  std::atomic<std::uint64_t> answers{0};    ///< of requests that were let in
+  std::atomic<std::uint64_t> forbidden{0};  ///< requests that were not, see web_refusal()
+};
+
+}  // namespace nbvopt
