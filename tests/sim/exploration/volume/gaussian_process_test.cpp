@@ -31,10 +31,9 @@ void expect(const GaussianProcess& process, const std::vector<Expected>& expecte
   }
 }
 
-// Means k^T (K + 0.01 I)^-1 y and variances 100 - k^T (K + 0.01 I)^-1 k by NumPy's inverse, and
-// once more by Gaussian elimination in 40 decimals: what GaussianProcessRegressor(kernel=100 *
-// Matern(length_scale, nu=1.5), alpha=0.01, optimizer=None) of scikit-learn stands for, where yaws
-// do not wrap.
+// Means and variances by GaussianProcessRegressor(kernel=100 * Matern(length_scale, nu=1.5),
+// alpha=0.01, optimizer=None) of scikit-learn 1.2.1; where yaws wrap, with that kernel on wrapped
+// differences. NumPy's k^T (K + 0.01 I)^-1 y and 100 - k^T (K + 0.01 I)^-1 k are the same.
 TEST(GaussianProcess, PredictsWhatOthersPredict) {
   expect(process({.length_scale_m = 3.0, .wraps_yaw = true}),
          {{{0.5, 0.5, 0.2}, 3.237660556866938, 9.064409202946052},
