@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "cli/options/arguments.hpp"
+#include "cli/options/shard_argument.hpp"
+#include "cli/reproduce_exchange.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
@@ -88,8 +90,7 @@ void reproduce(ReproduceOptions options) {
                               options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
                                                : std::max(1U, std::thread::hardware_concurrency()));
   if (workers.is_servant()) return workers.serve();
-  options.experiment.world = {.model_paths = gazebo_model_paths(),
-                              .cache_folder = user_cache_folder()};
+  options.experiment = with_users_folders(options.experiment);
   const ReproductionFolder& folder = options.experiment.folder;
   std::vector<Unit> units = experiment_units(options.experiment);
   if (!options.dry_run) create_folder(folder.units());  // it is soon known whether that can be done
@@ -98,7 +99,7 @@ void reproduce(ReproduceOptions options) {
   read_worlds(units);
   std::set<std::filesystem::path> worlds;
   for (const Unit& unit : units) worlds.insert(unit.simulation.world.file);
-  workers.require_files(std::vector(worlds.begin(), worlds.end()));
+  workers.pool().require_files(std::vector(worlds.begin(), worlds.end()));
   const std::size_t failed = options.tables_only ? 0 : run_units(units, options, workers.pool());
   const std::vector<UnitResult> results = read_results(units, folder);
   const ReproductionTable table = make_table(units, results, missing);
@@ -117,13 +118,9 @@ void simulate_units() {
   experiment::run_worker([&](const Json& unit) { return runner.run(simulation_unit_of(unit)); });
 }
 
-/// Options that are required otherwise are not of the worker.
-CLI::App* add_worker(CLI::App& command, const std::vector<CLI::Option*>& required) {
+CLI::App* add_worker(CLI::App& command) {
   CLI::App* worker = command.add_subcommand(
       "worker", "Answer units of work, a line each, from standard input to standard output");
-  worker->preparse_callback([required](std::size_t) {
-    for (CLI::Option* option : required) option->required(false);
-  });
   worker->callback(simulate_units);
   return worker;
 }
@@ -183,7 +180,17 @@ void set_up_reproduce(CLI::App& app) {
                     "print the commands, one a line, and their number");
   command->add_flag("--tables-only", options->tables_only,
                     "run nothing, and write the tables of what is done so far");
-  const CLI::App* worker = add_worker(*command, {worlds, out});
+  add_shard(*command, experiment.shard,
+            "do the I-th of N parts only, I from 1 to N, each into a folder of its own; reproduce "
+            "merge joins them, and --tables-only then writes the tables");
+  add_reproduce_exchange(*command, {options, &options->experiment});
+  // Options that are required otherwise are not of these.
+  for (CLI::App* other : {add_reproduce_merge(*command), add_worker(*command)}) {
+    other->preparse_callback([worlds, out](std::size_t) {
+      worlds->required(false);
+      out->required(false);
+    });
+  }
   command->footer(
       "Explores from every start once, then replays each trajectory with the camera still, with\n"
       "the paper's grid and with auto for t = 0.2, 0.5 and 1.0 s, with a grid over three joints "
@@ -195,8 +202,8 @@ void set_up_reproduce(CLI::App& app) {
       "prediction.csv and table.json. What is done already, by the same command, is not run "
       "again.\n"
       "Example: nbvopt reproduce --worlds worlds --out reproduction");
-  command->callback([options, worker] {
-    if (!worker->parsed()) reproduce(*options);
+  command->callback([options, command] {
+    if (command->get_subcommands().empty()) reproduce(*options);
   });
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/options/arguments.hpp"
+#include "cli/options/shard_argument.hpp"
 #include "cli/study_exchange.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
@@ -36,7 +37,7 @@ struct StudyOptions {
   std::string folder;
   std::int64_t workers = 0;  ///< 0: one a core
   std::string worker_command;
-  study::Shard shard;
+  experiment::Shard shard;
   bool dry_run = false;
   bool retry_failed = false;
 };
@@ -60,20 +61,6 @@ std::string to_text(const study::Study& study, const study::WorkCount& work, std
   }
   return text + std::to_string(work.done) + " done (" + std::to_string(work.failed) + " failed), " +
          std::to_string(to_run) + " to run\n";
-}
-
-/// "I/N", as numbers.
-study::Shard shard_of(const std::string& text) {
-  std::istringstream in(text);
-  std::int64_t part = 0;
-  std::int64_t parts = 0;
-  char slash = 0;
-  constexpr std::int64_t kMost = 1'000'000;
-  if (!(in >> part >> slash >> parts) || !in.eof() || slash != '/' || part < 1 || part > parts ||
-      parts > kMost) {
-    throw UsageError("--shard: '" + text + "' is not I/N with I from 1 to N, such as 1/4");
-  }
-  return {static_cast<std::size_t>(part - 1), static_cast<std::size_t>(parts)};
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -122,7 +109,7 @@ void run(const StudyOptions& options, WorkKind kind) {
 
   std::vector<std::filesystem::path> maps;
   for (const study::StudyMap& map : study.maps) maps.push_back(map.file);
-  workers.require_files(maps);
+  workers.pool().require_files(maps);
   Progress progress("study", static_cast<double>(to_run));
   double ended = 0.0;
   const auto on_end = [&](const Json& record) {
@@ -199,12 +186,10 @@ void add_run_arguments(CLI::App& command, StudyOptions& options) {
                   "what starts a worker, words with blanks between them [this program]")
       ->type_name("COMMAND");
   command.add_flag("--retry-failed", options.retry_failed, "run units again that have failed");
-  command
-      .add_option_function<std::string>(
-          "--shard", [&options](const std::string& text) { options.shard = shard_of(text); },
-          "do the I-th of N parts only, I from 1 to N, each into a folder of its own; study merge "
-          "joins them")
-      ->type_name("I/N");
+  add_shard(
+      command, options.shard,
+      "do the I-th of N parts only, I from 1 to N, each into a folder of its own; study merge "
+      "joins them");
 }
 
 void add_run(CLI::App& study, const char* name, const char* description, WorkKind kind) {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "cli/terminal/output.hpp"
-#include "experiment/protocol.hpp"
 #include "study/spec/spec_file.hpp"
 #include "study/study_run.hpp"
 
@@ -37,15 +36,12 @@ CLI::App* add_command(CLI::App& study, const char* name, const char* description
 
 void print_units(const ExchangeOptions& options) {
   list_units(study::read_spec(options.spec_file).study, {options.folder}, options.kind(),
-             {.retry_failed = options.retry_failed}, [](const experiment::Unit& unit) {
-               print_answer(experiment::unit_line(unit) + '\n');
-             });
+             {.retry_failed = options.retry_failed}, print_line);
 }
 
 void record(const ExchangeOptions& options) {
-  const std::size_t count = record_answers(study::read_spec(options.spec_file).study,
-                                           {options.folder}, options.kind(), std::cin);
-  print_answer(std::to_string(count) + " recorded\n");
+  record_answers(study::read_spec(options.spec_file).study, {options.folder}, options.kind(),
+                 std::cin, print_line);
 }
 
 }  // namespace
@@ -56,7 +52,11 @@ void add_study_exchange(CLI::App& study) {
       study, "units", "Print what is to be done, a line a unit as workers take it", *options);
   units->add_flag("--retry-failed", options->retry_failed, "units that have failed, too");
   units->callback([options] { print_units(*options); });
-  add_command(study, "record", "Keep workers' answers, lines from standard input", *options)
+  add_command(
+      study, "record",
+      "Keep workers' answers, lines from standard input, and print the unit of each that is "
+      "kept",
+      *options)
       ->callback([options] { record(*options); });
 }
 

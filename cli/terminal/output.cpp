@@ -12,6 +12,8 @@ void print_answer(const std::string& text) {
   if (!std::cout) throw InputError("standard output: cannot be written, is the disk full?");
 }
 
+void print_line(const std::string& line) { print_answer(line + '\n'); }
+
 void print_message(const std::string& message) {
   std::string line = message;
   std::replace_if(

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,10 @@ class Pool {
   /// Waits for events, until this time and no longer than until the descriptor `wake` is readable.
   /// Throws InputError for what no worker would do.
   virtual std::vector<PoolEvent> wait(Clock::time_point until, int wake) = 0;
+
+  /// Throws InputError that names a file of this machine which a worker elsewhere cannot read, and
+  /// the machine. To be called before any worker is started.
+  virtual void require_files(std::span<const std::filesystem::path> /*files*/) {}
 };
 
 }  // namespace nbvopt::experiment

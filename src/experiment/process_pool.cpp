@@ -94,11 +94,13 @@ PoolEvent ProcessPool::event_of(std::size_t index, const std::string& line) {
     has_heard_a_worker_ = true;
     return {.worker = index, .kind = PoolEvent::Kind::ready};
   }
-  std::optional<Outcome> outcome;
-  if (worker.unit) outcome = parse_answer(line, *worker.unit);
-  if (!outcome) fail("a worker wrote what is no answer: " + line.substr(0, 80));
+  std::optional<AnsweredUnit> answered = parse_answer(line);
+  if (!answered || answered->id != worker.unit) {
+    fail("a worker wrote what is no answer: " + line.substr(0, 80));
+  }
   worker.unit.reset();
-  return {.worker = index, .kind = PoolEvent::Kind::answered, .outcome = *std::move(outcome)};
+  return {
+      .worker = index, .kind = PoolEvent::Kind::answered, .outcome = std::move(answered->outcome)};
 }
 
 PoolEvent ProcessPool::lose(std::size_t index) {

@@ -57,23 +57,19 @@ std::string answer_line(const std::string& unit_id, const Outcome& outcome) {
   return to_line(line);
 }
 
-std::string unit_of_answer(std::string_view line) {
-  const Json answer = parse_object(line);
-  const Json unit = answer.is_null() ? Json() : answer.value("unit", Json());
-  return unit.is_string() ? unit.get<std::string>() : std::string();
-}
-
-std::optional<Outcome> parse_answer(std::string_view line, const std::string& unit_id) {
-  const Json answer = parse_object(line);
-  if (answer.is_null() || answer.value("unit", Json()) != unit_id) return std::nullopt;
-  const Json busy_ms = answer.value("busy_ms", Json());
-  if (!busy_ms.is_number()) return std::nullopt;
-  Outcome outcome{.answer = answer.value("answer", Json()), .busy_ms = busy_ms.get<double>()};
-  const Json failure = answer.value("failure", Json());
-  if (outcome.answer.is_object() && failure.is_null()) return outcome;
-  if (!outcome.answer.is_null() || !failure.is_string()) return std::nullopt;
-  outcome.failure = failure.get<std::string>();
-  return outcome.failure.empty() ? std::nullopt : std::optional(outcome);
+std::optional<AnsweredUnit> parse_answer(std::string_view line) {
+  Json said = parse_object(line);
+  if (said.is_null()) return std::nullopt;
+  const Json id = said.value("unit", Json());
+  const Json busy_ms = said.value("busy_ms", Json());
+  if (!id.is_string() || !busy_ms.is_number()) return std::nullopt;
+  AnsweredUnit unit{id.get<std::string>(), {.answer = Json(), .busy_ms = busy_ms.get<double>()}};
+  const Json failure = said.value("failure", Json());
+  if (said.contains("answer")) unit.outcome.answer = std::move(said.at("answer"));
+  if (unit.outcome.answer.is_object() && failure.is_null()) return unit;
+  if (!unit.outcome.answer.is_null() || !failure.is_string()) return std::nullopt;
+  unit.outcome.failure = failure.get<std::string>();
+  return unit.outcome.failure.empty() ? std::nullopt : std::optional(unit);
 }
 
 }  // namespace nbvopt::experiment

@@ -23,10 +23,13 @@ Unit parse_unit(std::string_view line);
 
 std::string answer_line(const std::string& unit_id, const Outcome& outcome);
 
-/// The id of the unit that the line answers; empty when it is no answer.
-std::string unit_of_answer(std::string_view line);
+/// How a unit ended that a worker was given.
+struct AnsweredUnit {
+  std::string id;
+  Outcome outcome;
+};
 
-/// None when the line is no answer of this unit.
-std::optional<Outcome> parse_answer(std::string_view line, const std::string& unit_id);
+/// None when the line is no answer.
+std::optional<AnsweredUnit> parse_answer(std::string_view line);
 
 }  // namespace nbvopt::experiment

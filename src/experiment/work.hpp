@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/json.hpp"
 
@@ -22,10 +23,19 @@ struct Outcome {
   double busy_ms = 0.0;      ///< that it took; 0 where its worker ended
 };
 
+/// Where in a unit's payload files are named, as JSON pointers.
+struct UnitFiles {
+  std::vector<std::string> reads;
+  std::vector<std::string> writes;
+};
+
 /// Units by their index, and what is kept of them.
 class Work {
  public:
   virtual ~Work() = default;
+
+  /// That of the unit.
+  virtual std::string id(std::size_t index) = 0;
 
   /// Made when it is handed out, since there may be very many.
   virtual Unit unit(std::size_t index) = 0;
@@ -37,6 +47,9 @@ class Work {
   virtual std::optional<std::size_t> predecessor(std::size_t /*index*/) const {
     return std::nullopt;
   }
+
+  /// The files that the unit's payload names.
+  virtual UnitFiles files(std::size_t /*index*/) const { return {}; }
 };
 
 }  // namespace nbvopt::experiment

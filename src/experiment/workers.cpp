@@ -19,11 +19,6 @@ std::size_t Workers::count() const {
   return session_ != nullptr ? static_cast<std::size_t>(session_->size() - 1) : count_;
 }
 
-void Workers::require_files(std::span<const std::filesystem::path> files) {
-  // This machine's are known to be there.
-  if (auto* ranks = dynamic_cast<MpiPool*>(pool_.get())) ranks->require_files(files);
-}
-
 Pool& Workers::pool() {
   if (pool_ == nullptr) pool_ = std::make_unique<ProcessPool>(command_, count_);
   return *pool_;

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,9 +24,6 @@ class Workers {
   void serve() const;
 
   std::size_t count() const;
-
-  /// Throws InputError that names a file which a worker's machine does not have.
-  void require_files(std::span<const std::filesystem::path> files);
 
   /// The pool of a run. Throws InputError when it cannot be made.
   Pool& pool();

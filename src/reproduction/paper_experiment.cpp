@@ -95,8 +95,8 @@ bool is_chosen(const Value& value, const std::vector<Value>& chosen) {
   return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
 }
 
-/// The drives of an explorer, then what is run on them.
-void append_units(std::vector<Unit>& units, const ExperimentOptions& options,
+/// The drives of an explorer, then what is run on them; `drives` counts those of all shards.
+void append_units(std::vector<Unit>& units, std::size_t& drives, const ExperimentOptions& options,
                   std::span<const Departure> all_departures, ExplorerKind explorer,
                   std::span<const EpisodeSetting> all_settings) {
   if (!is_chosen(explorer, options.explorers)) return;
@@ -108,7 +108,7 @@ void append_units(std::vector<Unit>& units, const ExperimentOptions& options,
   if (settings.empty()) return;
   const std::size_t first = units.size();
   for (const Departure& from : all_departures) {
-    units.push_back(drive_unit(options, from, explorer));
+    if (options.shard.has(drives++)) units.push_back(drive_unit(options, from, explorer));
   }
   const std::size_t end = units.size();
   for (std::size_t drive = first; drive < end; ++drive) {
@@ -160,9 +160,10 @@ bool ends_with_papers(ExplorerKind explorer) {
 std::vector<Unit> experiment_units(const ExperimentOptions& options) {
   const std::vector<Departure> from = departures(options);
   std::vector<Unit> units;
-  append_units(units, options, from, ExplorerKind::plane, episode_settings());
+  std::size_t drives = 0;
+  append_units(units, drives, options, from, ExplorerKind::plane, episode_settings());
   for (const SpatialTest& test : spatial_tests()) {
-    append_units(units, options, from, test.explorer, {&test.setting, 1});
+    append_units(units, drives, options, from, test.explorer, {&test.setting, 1});
   }
   return units;
 }

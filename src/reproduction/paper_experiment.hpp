@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/shard.hpp"
 #include "reproduction/environments.hpp"
 #include "reproduction/simulation_unit.hpp"
 
@@ -42,6 +43,7 @@ struct ReproductionFolder {
   std::filesystem::path root;
 
   std::filesystem::path units() const { return root / "units"; }
+  std::filesystem::path worlds() const { return root / "worlds"; }  ///< those that were built
   std::filesystem::path records() const { return root / "records.jsonl"; }
 };
 
@@ -59,6 +61,7 @@ struct ExperimentOptions {
   bool has_people = true;  ///< those of the worlds
   /// Of explorations; none: as the environment has it, in space as the paper's Table 2 has it.
   std::optional<double> duration_max_s;
+  experiment::Shard shard = {};  ///< of the drives; what is run on a drive stays with it
 };
 
 /// A drive that records a trajectory, or an episode on it.
@@ -78,8 +81,9 @@ struct Unit {
 /// plane, as SpatialTest has it on those of explorers in space.
 std::string test_name(const EpisodeSetting& setting, ExplorerKind explorer = ExplorerKind::plane);
 
-/// All units, each drive before its episodes, those of explorers in space last; digests of their
-/// worlds are still to be read. Throws as chosen_environments() and starts_in() do.
+/// All units of the shard, each drive before its episodes, those of explorers in space last;
+/// digests of their worlds are still to be read. Throws as chosen_environments() and starts_in()
+/// do.
 std::vector<Unit> experiment_units(const ExperimentOptions& options);
 
 /// The command that does a unit's work by itself, as a shell would take it.

@@ -62,17 +62,21 @@ Json unit_record(const Unit& unit, const std::string& fingerprint,
   return record;
 }
 
+std::string record_id(const Json& record) {
+  if (record.at("schema") != kRecordVersion) {
+    throw InputError("a record has schema " + record.at("schema").dump() + ", this program reads " +
+                     std::to_string(kRecordVersion));
+  }
+  return record.at("unit").get<std::string>();
+}
+
 std::vector<UnitResult> read_results(std::span<const Unit> units,
                                      const ReproductionFolder& folder) {
   std::unordered_map<std::string, std::size_t> unit_of_id;
   for (const std::string& id : fingerprints(units)) unit_of_id.emplace(id, unit_of_id.size());
   std::vector<UnitResult> results(units.size());
   experiment::for_each_record(folder.records(), [&](const Json& record) {
-    if (record.at("schema") != kRecordVersion) {
-      throw InputError("a record has schema " + record.at("schema").dump() +
-                       ", this program reads " + std::to_string(kRecordVersion));
-    }
-    const auto known = unit_of_id.find(record.at("unit").get<std::string>());
+    const auto known = unit_of_id.find(record_id(record));
     if (known == unit_of_id.end()) return;
     results[known->second] = result_of(record, units[known->second]);
   });

@@ -31,6 +31,9 @@ std::vector<std::string> fingerprints(std::span<const Unit> units,
 Json unit_record(const Unit& unit, const std::string& fingerprint,
                  const experiment::Outcome& outcome);
 
+/// The unit's fingerprint. Throws InputError for a record of another schema.
+std::string record_id(const Json& record);
+
 /// What the folder's records know of the units, whose worlds must have been read. What was made by
 /// another version of this program, from another world or in another way does not count, nor does a
 /// drive whose trajectory is no longer what it recorded, nor an episode on another trajectory; of

@@ -8,10 +8,12 @@
 
 #include "core/enum_names.hpp"
 #include "core/number.hpp"
+#include "core/text_file.hpp"
 #include "experiment/digest.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sensor/sensor_names.hpp"
 #include "sim/people/people_json.hpp"
+#include "sim/world/built_world.hpp"
 
 namespace nbvopt {
 namespace {
@@ -47,11 +49,13 @@ Json to_json(const WorldSource& world) {
   Json model_paths = Json::array();
   for (const auto& path : world.options.model_paths) model_paths.push_back(path.string());
   const auto& cache = world.options.cache_folder;
-  return {{"file", world.file.string()},
-          {"people", world.has_people},
-          {"digest", world.digest},
-          {"model_paths", model_paths},
-          {"cache_folder", cache ? Json(cache->string()) : Json(nullptr)}};
+  Json json{{"file", world.file.string()},
+            {"people", world.has_people},
+            {"digest", world.digest},
+            {"model_paths", model_paths},
+            {"cache_folder", cache ? Json(cache->string()) : Json(nullptr)}};
+  if (world.built) json["built"] = world.built->string();
+  return json;
 }
 
 WorldSource world_of(const Json& json) {
@@ -64,6 +68,7 @@ WorldSource world_of(const Json& json) {
   }
   const Json& cache = json.at("cache_folder");
   if (!cache.is_null()) world.options.cache_folder = cache.get<std::string>();
+  if (json.contains("built")) world.built = json.at("built").get<std::string>();
   return world;
 }
 
@@ -100,6 +105,15 @@ std::string quoted(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
   return quoted + '\'';
+}
+
+World read_built_world(const std::filesystem::path& file) {
+  const std::string bytes = read_text_file(file);
+  try {
+    return unpack_world(bytes);
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
 }
 
 template <class Value>
@@ -163,7 +177,8 @@ std::string command_line(const SimulationUnit& simulation, const std::filesystem
 }
 
 World read_world(const WorldSource& source) {
-  World world = read_world(source.file, source.options);
+  World world =
+      source.built ? read_built_world(*source.built) : read_world(source.file, source.options);
   if (!source.has_people) world.people = {};
   return world;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -46,6 +47,8 @@ struct WorldSource {
   WorldOptions options;
   bool has_people = true;  ///< or they are left out
   std::string digest;      ///< of what is built from it; empty: not read yet
+  /// What was read of it, as pack_world() has it, to be read in its place; none: the file itself.
+  std::optional<std::filesystem::path> built = {};
 };
 
 struct SimulationUnit {
@@ -68,7 +71,8 @@ SimulationUnit simulation_unit_of(const Json& json);
 /// goes to that file.
 std::string command_line(const SimulationUnit& simulation, const std::filesystem::path& summary);
 
-/// Reads the world, with or without its people. Throws InputError as nbvopt's read_world() does.
+/// Reads the world, with or without its people. Throws InputError as nbvopt's read_world() does, or
+/// that names the file where it was built and is none of this version's.
 World read_world(const WorldSource& source);
 
 /// That of all that a simulation sees of a world.

@@ -6,9 +6,8 @@
 
 #include "core/file_lock.hpp"
 #include "core/folder.hpp"
-#include "experiment/protocol.hpp"
+#include "experiment/exchange.hpp"
 #include "experiment/record_file.hpp"
-#include "nbvopt/core/error.hpp"
 #include "study/fingerprints.hpp"
 #include "study/record.hpp"
 
@@ -21,17 +20,24 @@ class Work final : public experiment::Work {
   Work(const Study& study, const StudyFolder& folder, WorkKind kind)
       : study_(study), folder_(folder), kind_(kind), fingerprints_(study) {}
 
+  std::size_t size() const {
+    return kind_ == WorkKind::query ? unit_count(study_) : case_count(study_);
+  }
+
+  double timeout_s() const {
+    return kind_ == WorkKind::query ? study_.unit_timeout_s : study_.reference_timeout_s;
+  }
+
   /// The units of a shard, ascending.
   std::vector<std::size_t> of(const Shard& shard) const {
-    const std::size_t count = kind_ == WorkKind::query ? unit_count(study_) : case_count(study_);
     std::vector<std::size_t> units;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < size(); ++i) {
       if (shard.has(at(i).case_index)) units.push_back(i);
     }
     return units;
   }
 
-  std::string id(std::size_t index) {
+  std::string id(std::size_t index) override {
     return kind_ == WorkKind::query ? fingerprints_.of_unit(at(index))
                                     : fingerprints_.of_case(index);
   }
@@ -58,6 +64,10 @@ class Work final : public experiment::Work {
     return kind_ == WorkKind::query
                ? query_record(study_, place, fingerprints_, outcome)
                : reference_record(study_, place.case_index, fingerprints_, outcome);
+  }
+
+  experiment::UnitFiles files(std::size_t /*index*/) const override {
+    return {.reads = {"/map", "/robot"}, .writes = {}};
   }
 
  private:
@@ -128,46 +138,29 @@ experiment::RunResult run_study(const Study& study, const StudyFolder& folder, W
   experiment::RecordFile records(record_path(folder, kind));
   Work work(study, folder, kind);
   const std::vector<std::size_t> to_do = open_units(work, record_path(folder, kind), options);
-  return experiment::run_units(
-      work, to_do, kind == WorkKind::query ? study.unit_timeout_s : study.reference_timeout_s, pool,
-      records, on_end);
+  return experiment::run_units(work, to_do, work.timeout_s(), pool, records, on_end);
 }
 
 void list_units(const Study& study, const StudyFolder& folder, WorkKind kind,
                 const RunOptions& options,
-                const std::function<void(const experiment::Unit& unit)>& visit) {
+                const std::function<void(const std::string& line)>& visit) {
   const FileLock lock = open_folder(study, folder);
   Work work(study, folder, kind);
-  for (const std::size_t i : open_units(work, record_path(folder, kind), options)) {
-    visit(work.unit(i));
-  }
+  const std::vector<std::size_t> to_do = open_units(work, record_path(folder, kind), options);
+  experiment::list_units(work, to_do, work.timeout_s(), visit);
 }
 
-std::size_t record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
-                           std::istream& answers) {
+void record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
+                    std::istream& answers,
+                    const std::function<void(const std::string& id)>& on_kept) {
   const FileLock lock = open_folder(study, folder);
   experiment::RecordFile records(record_path(folder, kind));
   Work work(study, folder, kind);
-  std::unordered_map<std::string, std::size_t> unit_of_id;
-  for (const std::size_t i : work.of({})) unit_of_id.emplace(work.id(i), i);
-  auto finished = finished_units(record_path(folder, kind));
-  std::size_t count = 0;
-  std::string line;
-  for (std::size_t number = 1; std::getline(answers, line); ++number) {
-    const std::string id = experiment::unit_of_answer(line);
-    const auto unit = unit_of_id.find(id);
-    const auto outcome = experiment::parse_answer(line, id);
-    if (unit == unit_of_id.end() || !outcome) {
-      throw InputError("answers: line " + std::to_string(number) +
-                       ": is no answer to a unit of this study: " + line.substr(0, 80));
-    }
-    const auto known = finished.find(id);
-    if (known != finished.end() && !known->second) continue;
-    records.append(work.record(unit->second, *outcome));
-    finished[id] = !outcome->failure.empty();
-    ++count;
+  std::vector<bool> has_answer(work.size(), true);
+  for (const std::size_t i : open_units(work, record_path(folder, kind), {.retry_failed = true})) {
+    has_answer[i] = false;
   }
-  return count;
+  experiment::record_answers(work, std::move(has_answer), records, answers, on_kept);
 }
 
 }  // namespace nbvopt::study

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <istream>
+#include <string>
 
 #include "experiment/coordinator.hpp"
 #include "experiment/pool.hpp"
+#include "experiment/shard.hpp"
 #include "study/study_file.hpp"
 
 namespace nbvopt::study {
@@ -18,14 +20,8 @@ struct WorkCount {
   std::size_t failed = 0;  ///< of those that are done
 };
 
-/// The part of a study that one of several runs does: every count-th case from `index` on, with all
-/// that is asked of it.
-struct Shard {
-  std::size_t index = 0;
-  std::size_t count = 1;
-
-  bool has(std::size_t case_index) const { return case_index % count == index; }
-};
+/// The groups of units that a study's shards are made of are its cases, with all that is asked.
+using experiment::Shard;
 
 struct RunOptions {
   bool retry_failed = false;  ///< whether units that have failed count as not done
@@ -47,15 +43,14 @@ experiment::RunResult run_study(const Study& study, const StudyFolder& folder, W
                                 const std::function<void(const Json& record)>& on_end);
 
 /// For engines that bring workers of their own: writes the study into its folder and visits what of
-/// the shard has no record there yet, as a worker is to get it. Throws as run_study().
+/// the shard has no record there yet, as experiment::list_units(). Throws as run_study().
 void list_units(const Study& study, const StudyFolder& folder, WorkKind kind,
                 const RunOptions& options,
-                const std::function<void(const experiment::Unit& unit)>& visit);
+                const std::function<void(const std::string& line)>& visit);
 
-/// Their answers on the way back, a worker's line each: every record is in its file before the next
-/// line is read, and a unit that has an answer keeps it. Gives the number of records. Throws
-/// InputError as run_study(), and that names the line of what is no answer to a unit of the study.
-std::size_t record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
-                           std::istream& answers);
+/// Their answers on the way back. Throws as run_study() and experiment::record_answers().
+void record_answers(const Study& study, const StudyFolder& folder, WorkKind kind,
+                    std::istream& answers,
+                    const std::function<void(const std::string& id)>& on_kept);
 
 }  // namespace nbvopt::study

@@ -147,6 +147,31 @@ TEST_F(Reproduce, SurvivesKills) {
   }
 }
 
+TEST_F(Reproduce, PartsMakeTheWhole) {
+  const Arguments few{"--motion-time", "0.5"};
+  const auto with = [&few](const Arguments& more) {
+    Arguments all = few;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  ASSERT_EQ(nbvopt_run(arguments("whole", few)).exit_code, 0);
+  for (const char* part : {"1", "2"}) {
+    const ProcessResult result =
+        nbvopt_run(arguments(part, with({"--shard", part + std::string("/2")})));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_LT(records(part).size(), records("whole").size());
+  }
+  const ProcessResult merge =
+      nbvopt_run({"reproduce", "merge", folder / "1", folder / "2", "--out", folder / "merged"});
+  ASSERT_EQ(merge.exit_code, 0) << merge.err;
+  EXPECT_EQ(records("merged"), records("whole"));
+  ASSERT_EQ(nbvopt_run(arguments("merged", with({"--tables-only"}))).exit_code, 0);
+  for (const char* table : {"report.html", "table.json"}) {
+    EXPECT_EQ(file(std::string("merged/") + table), file(std::string("whole/") + table)) << table;
+  }
+  EXPECT_EQ(nbvopt_run(arguments("merged", with({"--shard", "3/2"}))).exit_code, 2);
+}
+
 TEST_F(Reproduce, AStopKeepsWhatIsDone) {
   BackgroundProcess process(cli_program(), arguments("out"), folder / "stopped.log");
   ASSERT_TRUE(wait_until([&] { return records_so_far("out") > 1; }));

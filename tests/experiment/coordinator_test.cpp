@@ -24,7 +24,9 @@ using testing::UnorderedElementsAre;
 /// Units that are told by their index; some wait for another.
 class NumberedWork final : public Work {
  public:
-  Unit unit(std::size_t index) override { return {std::to_string(index), Json::object()}; }
+  std::string id(std::size_t index) override { return std::to_string(index); }
+
+  Unit unit(std::size_t index) override { return {id(index), Json::object()}; }
 
   Json record(std::size_t index, const Outcome& outcome) override {
     return {{"unit", index}, {"failure", outcome.failure}};

@@ -27,25 +27,26 @@ TEST(Protocol, RefusesWhatIsNoUnit) {
 
 TEST(Protocol, KeepsAnswersAndFailures) {
   const Outcome answered{.answer = {{"gain", 0.1}}, .busy_ms = 2.5};
-  const auto answer = parse_answer(answer_line("id", answered), "id");
+  const auto answer = parse_answer(answer_line("id", answered));
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->answer, answered.answer);
-  EXPECT_EQ(answer->failure, "");
-  EXPECT_EQ(answer->busy_ms, 2.5);
+  EXPECT_EQ(answer->id, "id");
+  EXPECT_EQ(answer->outcome.answer, answered.answer);
+  EXPECT_EQ(answer->outcome.failure, "");
+  EXPECT_EQ(answer->outcome.busy_ms, 2.5);
 
-  const auto failure = parse_answer(answer_line("id", {.answer = Json(), .failure = "why"}), "id");
+  const auto failure = parse_answer(answer_line("id", {.answer = Json(), .failure = "why"}));
   ASSERT_TRUE(failure);
-  EXPECT_TRUE(failure->answer.is_null());
-  EXPECT_EQ(failure->failure, "why");
+  EXPECT_TRUE(failure->outcome.answer.is_null());
+  EXPECT_EQ(failure->outcome.failure, "why");
 }
 
 TEST(Protocol, TakesNothingElseForAnAnswer) {
-  EXPECT_FALSE(parse_answer(answer_line("another", {.answer = Json::object()}), "id"));
   for (const char* line :
-       {"", "3", "[]", "{}", R"({"unit":"id","answer":{}})", R"({"unit":"id","busy_ms":1})",
-        R"({"unit":"id","answer":3,"busy_ms":1})", R"({"unit":"id","failure":"","busy_ms":1})",
+       {"", "3", "[]", "{}", R"({"unit":"id","answer":{}})", R"({"answer":{},"busy_ms":1})",
+        R"({"unit":"id","busy_ms":1})", R"({"unit":"id","answer":3,"busy_ms":1})",
+        R"({"unit":"id","failure":"","busy_ms":1})",
         R"({"unit":"id","answer":{},"failure":"why","busy_ms":1})"}) {
-    EXPECT_FALSE(parse_answer(line, "id")) << line;
+    EXPECT_FALSE(parse_answer(line)) << line;
   }
 }
 

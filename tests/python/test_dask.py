@@ -1,4 +1,4 @@
-"""Studies on a Dask cluster of this machine, against `nbvopt study run`."""
+"""Studies and reproductions on a Dask cluster of this machine, against one machine's."""
 
 import json
 import os
@@ -16,7 +16,7 @@ except ImportError:
     print("OK (skipped=1): python3-distributed is not installed")
     sys.exit(0)
 
-from nbvopt_dask import NbvoptError, run_study
+from nbvopt_dask import NbvoptError, run_reproduction, run_study
 
 NBVOPT = os.environ["NBVOPT_CLI"]
 OFFICE = pathlib.Path(__file__).resolve().parents[2] / "datasets" / "office_partial.ot"
@@ -31,12 +31,29 @@ seeds: %s
 """
 
 
+# A room of 4 x 3 m, with somebody in it.
+BOX = ("<model name='{0}'><static>true</static><pose>{1} 0 0 0</pose><link name='l'><visual "
+       "name='v'><geometry><box><size>{2}</size></box></geometry></visual></link></model>")
+WORLD = "<?xml version='1.0'?><sdf version='1.6'><world name='room'>" + "".join(
+    BOX.format(*box) for box in [
+        ("floor", "0 0 -0.05", "4 3 0.1"), ("south", "0 -1.5 0.5", "4 0.1 1"),
+        ("north", "0 1.5 0.5", "4 0.1 1"), ("west", "-2 0 0.5", "0.1 3 1"),
+        ("east", "2 0 0.5", "0.1 3 1")]) + (
+    "<actor name='walker'><script><trajectory id='0' type='walk'>"
+    "<waypoint><time>0</time><pose>1 1 0 0 0 0</pose></waypoint>"
+    "<waypoint><time>2</time><pose>1 -1 0 0 0 0</pose></waypoint>"
+    "</trajectory></script></actor></world></sdf>")
+EXPERIMENT = ["--environments", "apartment", "--starts", "1", "--duration-max", "2",
+              "--motion-time", "0.5"]
+
+
 def records(folder):
     """By their unit, without times; each once."""
     found = {}
     for line in (pathlib.Path(folder) / "records.jsonl").read_text().splitlines():
         record = json.loads(line)
-        del record["times"]
+        record.pop("times", None)
+        record.pop("times_ms", None)
         assert record["unit"] not in found, "recorded twice"
         found[record["unit"]] = record
     return found
@@ -93,6 +110,25 @@ class DaskTest(unittest.TestCase):
     def kill_a_worker(self):
         worker = next(iter(self.cluster.workers.values()))
         os.kill(worker.process.process.pid, signal.SIGKILL)
+
+    def test_reproduces_without_the_worlds_files(self):
+        world = self.folder / "worlds" / "apartment" / "worlds" / "small_house.world"
+        world.parent.mkdir(parents=True)
+        world.write_text(WORLD)
+        command = [NBVOPT, "reproduce", "--worlds", self.folder / "worlds", *EXPERIMENT, "--out"]
+        subprocess.run([*command, self.folder / "one"], check=True, capture_output=True)
+        one = records(self.folder / "one")
+        count = run_reproduction(self.client, self.folder / "worlds", self.folder / "many",
+                                 options=EXPERIMENT, nbvopt=NBVOPT, worker_nbvopt=NBVOPT)
+        self.assertEqual(count, len(one))
+        self.assertEqual(records(self.folder / "many"), one)
+        for file in (self.folder / "one" / "units").iterdir():
+            twin = self.folder / "many" / "units" / file.name
+            self.assertEqual(twin.read_bytes(), file.read_bytes(), file.name)
+        subprocess.run([*command, self.folder / "many", "--tables-only"], check=True,
+                       capture_output=True)
+        self.assertEqual((self.folder / "many" / "table.json").read_bytes(),
+                         (self.folder / "one" / "table.json").read_bytes())
 
     def test_refusals_are_nbvopts(self):
         with self.assertRaisesRegex(NbvoptError, "nowhere.yaml: cannot be opened"):

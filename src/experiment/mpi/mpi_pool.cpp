@@ -123,10 +123,12 @@ void MpiPool::take(const MpiSession::Message& message, std::vector<PoolEvent>& e
   if (told.life != workers_[index].life) return;  // of one that was stopped
   PoolEvent event{.worker = index};
   if (message.tag == tag::answer) {
-    std::optional<Outcome> outcome = parse_answer(told.text, workers_[index].unit);
-    if (!outcome) throw InputError(rank + "is no answer: " + told.text.substr(0, 80));
+    std::optional<AnsweredUnit> answered = parse_answer(told.text);
+    if (!answered || answered->id != workers_[index].unit) {
+      throw InputError(rank + "is no answer: " + told.text.substr(0, 80));
+    }
     event.kind = PoolEvent::Kind::answered;
-    event.outcome = *std::move(outcome);
+    event.outcome = std::move(answered->outcome);
   } else if (message.tag == tag::lost) {
     event.kind = PoolEvent::Kind::lost;
     event.how = told.text;

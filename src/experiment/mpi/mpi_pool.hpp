@@ -25,14 +25,12 @@ class MpiPool final : public Pool {
   /// Sends all ranks home.
   ~MpiPool() override;
 
-  /// Throws InputError that names a file which a rank cannot read, and the rank's machine.
-  void require_files(std::span<const std::filesystem::path> files);
-
   std::size_t size() const override { return workers_.size(); }
   void start(std::size_t worker) override;
   void hand_out(std::size_t worker, const Unit& unit) override;
   void stop(std::size_t worker) override;
   std::vector<PoolEvent> wait(Clock::time_point until, int wake) override;
+  void require_files(std::span<const std::filesystem::path> files) override;
 
  private:
   struct Worker {

@@ -14,6 +14,13 @@
 
 namespace nbvopt {
 
+/// FNV-1a, 64 bits.
+inline std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
 /// Values whose bytes are all that they are.
 template <class T>
 concept PlainValue = std::is_trivially_copyable_v<T> || std::is_same_v<T, Eigen::Vector3f>;
