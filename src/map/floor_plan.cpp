@@ -17,10 +17,6 @@ namespace {
 
 using Node = UncertaintyOcTreeNode;
 
-/// What map_server makes of these with the thresholds below: occupied, free, unknown.
-constexpr char kOccupied = 0;
-constexpr char kFree = static_cast<char>(254);
-constexpr char kUnknown = static_cast<char>(205);
 constexpr const char* kThresholds = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
 constexpr std::uint64_t kMostPixels = 100'000'000;
@@ -57,7 +53,9 @@ void for_each_leaf_in_band(const UncertaintyMap& map, const HeightBand& band, co
   });
 }
 
-std::string picture(const UncertaintyMap& map, const HeightBand& band, const Columns& shown) {
+std::string pixels_of(const UncertaintyMap& map, const HeightBand& band, const Columns& shown) {
+  constexpr char kOccupied = FloorPlan::kOccupied, kFree = FloorPlan::kFree;
+  constexpr char kUnknown = FloorPlan::kUnknown;
   std::string pixels(
       static_cast<std::size_t>(shown.width()) * static_cast<std::size_t>(shown.height()), kUnknown);
   const UncertaintyOcTree& tree = detail::MapAccess::tree(map);
@@ -72,8 +70,12 @@ std::string picture(const UncertaintyMap& map, const HeightBand& band, const Col
       }
     }
   });
-  return "P5\n" + std::to_string(shown.width()) + " " + std::to_string(shown.height()) + "\n255\n" +
-         pixels;
+  return pixels;
+}
+
+std::string picture(const FloorPlan& plan) {
+  return "P5\n" + std::to_string(plan.width) + " " + std::to_string(plan.height) + "\n255\n" +
+         plan.pixels;
 }
 
 /// As YAML wants names that may hold its signs.
@@ -83,13 +85,10 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-std::string meaning(const Lattice& lattice, const Columns& shown, const std::string& picture_name) {
-  const auto edge_m = [&](int key) {
-    return format_number((key - Lattice::kKeyOfOrigin) * lattice.resolution_m());
-  };
+std::string meaning(const FloorPlan& plan, const std::string& picture_name) {
   return "image: " + quoted(picture_name) +
-         "\nmode: trinary\nresolution: " + format_number(lattice.resolution_m()) + "\norigin: [" +
-         edge_m(shown.min_x) + ", " + edge_m(shown.min_y) + ", 0]\n" + kThresholds;
+         "\nmode: trinary\nresolution: " + format_number(plan.resolution_m) + "\norigin: [" +
+         format_number(plan.x_m) + ", " + format_number(plan.y_m) + ", 0]\n" + kThresholds;
 }
 
 /// A picture beside the meaning of another would look right: an older meaning is put aside until
@@ -112,8 +111,7 @@ void write_pair(const std::filesystem::path& picture_path, const std::string& pi
 
 }  // namespace
 
-void write_floor_plan(const UncertaintyMap& map, const std::filesystem::path& path,
-                      const HeightBand& band) {
+std::optional<FloorPlan> floor_plan(const UncertaintyMap& map, const HeightBand& band) {
   if (!(band.min_m <= band.max_m)) {
     throw InputError("height band: its lower end, " + format_number(band.min_m) +
                      " m, must be at most the upper, " + format_number(band.max_m) + " m");
@@ -123,7 +121,7 @@ void write_floor_plan(const UncertaintyMap& map, const std::filesystem::path& pa
     if (!shown) shown = columns;
     shown->add(columns);
   });
-  if (!shown) throw InputError("floor plan: nothing is known in the height band");
+  if (!shown) return std::nullopt;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(shown->width()) * static_cast<std::uint64_t>(shown->height());
   if (pixels > kMostPixels) {
@@ -132,13 +130,26 @@ void write_floor_plan(const UncertaintyMap& map, const std::filesystem::path& pa
                      std::to_string(kMostPixels) +
                      " that are written: narrow the height band, or use coarser voxels");
   }
+  const double resolution_m = map.resolution_m();
+  return FloorPlan{.width = shown->width(),
+                   .height = shown->height(),
+                   .resolution_m = resolution_m,
+                   .x_m = (shown->min_x - Lattice::kKeyOfOrigin) * resolution_m,
+                   .y_m = (shown->min_y - Lattice::kKeyOfOrigin) * resolution_m,
+                   .pixels = pixels_of(map, band, *shown)};
+}
+
+void write_floor_plan(const UncertaintyMap& map, const std::filesystem::path& path,
+                      const HeightBand& band) {
+  const std::optional<FloorPlan> plan = floor_plan(map, band);
+  if (!plan) throw InputError("floor plan: nothing is known in the height band");
   auto picture_path = path;
   auto meaning_path = path;
   picture_path.replace_extension(".pgm");
   meaning_path.replace_extension(".yaml");
   require_writable(meaning_path);
-  write_pair(picture_path, picture(map, band, *shown), meaning_path,
-             meaning(map.lattice(), *shown, picture_path.filename().string()));
+  write_pair(picture_path, picture(*plan), meaning_path,
+             meaning(*plan, picture_path.filename().string()));
 }
 
 }  // namespace nbvopt

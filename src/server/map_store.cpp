@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/number.hpp"
+#include "map/box_clearing.hpp"
 #include "nbvopt/core/error.hpp"
 #include "protocol/limit_error.hpp"
 
@@ -89,6 +90,27 @@ std::uint64_t MapStore::replace(UncertaintyMap map) {
 std::uint64_t MapStore::clear(std::optional<double> resolution_m) {
   const double same_m = published()->grid()->lattice().resolution_m();
   return replace(UncertaintyMap(resolution_m.value_or(same_m)));
+}
+
+std::uint64_t MapStore::clear_box(const KeyBox& box) {
+  const std::scoped_lock lock(tree_mutex_);
+  if (is_grid_behind_) publish_whole();
+  is_grid_behind_ = false;
+  BoxClearing clearing;
+  try {
+    clearing = nbvopt::clear_box(map_, box);
+  } catch (const Error&) {  // refused: the tree is untouched
+    throw;
+  } catch (...) {
+    is_grid_behind_ = true;
+    image_.forget_all();
+    throw;
+  }
+  image_.forget(clearing.tiles);
+  is_grid_behind_ = true;
+  publish(grid_->updated(clearing.changes), map_.memory_bytes());
+  is_grid_behind_ = false;
+  return grid_->version();
 }
 
 std::shared_ptr<const MapBytes> MapStore::bytes(MapFormat format) const {

@@ -65,6 +65,10 @@ class MapStore {
   /// Throws as UncertaintyMap does.
   std::uint64_t clear(std::optional<double> resolution_m);
 
+  /// Makes what is known in the box free and publishes the map; returns its version. Throws
+  /// InputError as nbvopt::clear_box() does; the map is then untouched.
+  std::uint64_t clear_box(const KeyBox& box);
+
   /// A version as a file, the newest or one published since this was called. Copied from the tree
   /// bit by bit, so that scans wait for milliseconds; what versions have in common is shared.
   std::shared_ptr<const MapBytes> bytes(MapFormat format) const;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include "map/box_clearing.hpp"
 #include "nbvopt/solver/registry.hpp"
 #include "protocol/limit_error.hpp"
 #include "server/server_world.hpp"
@@ -48,6 +49,21 @@ TEST(MapStore, HoldsTheMapThatScansMakeOfIt) {
   EXPECT_EQ(here.joints, there.joints);
   EXPECT_EQ(here.view, there.view);
   EXPECT_EQ(here.map_version, 11U);
+}
+
+TEST(MapStore, PublishesTheMapWithABoxCleared) {
+  MapStore store = make_store();
+  store.insert(test::small_scan(), test::scan_pose(0));
+  store.bytes(MapFormat::uncertainty_ot);  // copies that the clearing makes old
+  UncertaintyMap expected = test::small_map();
+  insert_scan(expected, test::small_scan(), test::scan_pose(0), store.robot().sensor);
+  const KeyBox wall = test::keys_between(expected.lattice(), {0.9, -1.0, 0.0}, {1.2, 0.5, 0.8});
+  clear_box(expected, wall);
+  EXPECT_EQ(store.clear_box(wall), 3U);
+  EXPECT_EQ(store.bytes(MapFormat::uncertainty_ot)->bytes.joined(),
+            map_file_bytes(expected, MapFormat::uncertainty_ot));
+  const ViewPlanner fresh(VoxelGrid::whole(expected), store.robot());
+  EXPECT_EQ(store.published()->evaluate(test::scan_pose(1)), fresh.evaluate(test::scan_pose(1)));
 }
 
 TEST(MapStore, KeepsOldVersionsForThoseWhoReadThem) {
