@@ -11,7 +11,7 @@ DEMO_WITHOUT := $(patsubst %,-DNBVOPT_BUILD_%=OFF,SERVER STUDY PYTHON TESTS BENC
 NOTEBOOKS ?= 01_one_query 02_solver_study 03_surrogate $(if $(wildcard out/search_quality.jsonl),search_quality)
 SOURCES = $(shell find include src solvers cli datasets tests bench examples -name '*.hpp' -o -name '*.cpp')
 
-.PHONY: help packages packages-ci packages-notebooks packages-docs build demo test \
+.PHONY: help packages packages-ros packages-ci packages-notebooks packages-docs build demo demo-ros test \
         bench bench-search bench-server notebook deb docs sanitize sanitize-threads fuzz format check-format tidy tidy-changed clean
 
 help:  ## list the commands
@@ -20,8 +20,11 @@ help:  ## list the commands
 packages:
 	@cmake/install_packages.sh packages-planner.txt packages.txt
 
+packages-ros:
+	@cmake/install_packages.sh packages-planner.txt packages.txt packages-ros.txt
+
 packages-ci:
-	@cmake/install_packages.sh packages-planner.txt packages.txt packages-ci.txt
+	@cmake/install_packages.sh packages-planner.txt packages.txt packages-ros.txt packages-ci.txt
 
 packages-notebooks:
 	@cmake/install_packages.sh packages-notebooks.txt
@@ -41,6 +44,12 @@ demo: packages  ## find a next best view, then map a small office in simulation;
 	@echo "The answer is in out/answer.json, the picture in out/view.png"
 	@$(NBVOPT) simulate datasets/office.world $(DEMO_EPISODE) --map-out out/office.ot --metrics out/office.jsonl --plot out/episode.png
 	@echo "The map is in out/office.ot, its growth in out/office.jsonl, the picture in out/episode.png"
+
+demo-ros: packages-ros  ## the ROS node moves the camera of a simulated robot through the office, for a minute
+	@cmake --preset $(PRESET) --log-level=WARNING
+	@cmake --build --preset $(PRESET) --target nbvopt_cli nbvopt_ros_nbvopt_node nbvopt_ros_nbvopt_simulated_robot
+	@mkdir -p out
+	@examples/demo_ros.sh $(BUILD) out $(or $(SECONDS),60) $(DEMO_ROS_ARGS)
 
 test: build  ## run all tests
 	@ctest --preset $(PRESET) --output-junit junit.xml
@@ -90,7 +99,7 @@ check-format: packages-ci
 # Linting needs the generated headers, and nothing else that a build makes.
 tidy: packages packages-ci  ## lint all sources; FILES="..." takes some
 	@cmake --preset tidy --log-level=WARNING
-	@ninja -C build/tidy --quiet src/protocol/generated/nbvopt/v1/planner.pb.h
+	@ninja -C build/tidy --quiet src/protocol/generated/nbvopt/v1/planner.pb.h nbvopt_ros_interfaces_made
 	@run-clang-tidy -quiet -j 2 -p build/tidy $(or $(addprefix $(CURDIR)/,$(FILES)),'^$(CURDIR)/(src|solvers|cli|datasets|bench)/')
 
 tidy-changed:  ## lint what the newest commits changed

@@ -11,7 +11,8 @@ mkdir -p "$pages"
 
 # The pages are those of the repository, in the same places, with the files that they link to.
 for path in README.md LICENSE docs datasets examples notebooks \
-            packaging/nbvopt.service.in src/protocol/nbvopt/v1/planner.proto; do
+            packaging/nbvopt.service.in src/protocol/nbvopt/v1/planner.proto \
+            src/ros1/package/config/paper_robot.yaml; do
   mkdir -p "$pages/$(dirname "$path")"
   ln -s "$root/$path" "$pages/$path"
 done
