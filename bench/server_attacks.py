@@ -22,6 +22,7 @@ from hostile_http2 import Attack, connect, resident_mib  # noqa: E402
 MOST_MIB = 2000
 STATE = {"base": (1.0, 1.0, 1.0), "joints": (0.0, 0.0, 0.4), "motion_time_s": 1.0}
 INSERT_SCAN = "/nbvopt.v1.Planner/InsertScan"
+PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
 class Observer:
@@ -30,12 +31,13 @@ class Observer:
     def __init__(self, nbvopt: str):
         command = ["taskset", "-c", "0", nbvopt, "serve", "--create", "0.05", "--threads", "1"]
         self._process = subprocess.Popen(
-            [*command, "--listen", "127.0.0.1:0"],
+            [*command, "--listen", "127.0.0.1:0", "--web", "127.0.0.1:0"],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
         )
         self.address = self._process.stdout.readline().split()[-1]
+        self.web = self._process.stdout.readline().split("//")[-1].strip("/\n")
         self.waits_s = []
         self.refused = 0
         self.least_mib = self.most_mib = resident_mib(self._process.pid)
@@ -97,6 +99,20 @@ def read_no_plans(observer: Observer, seconds: float, streams: int) -> None:
             call.cancel()
 
 
+def ask_the_page(observer: Observer, seconds: float, connections: int, request: bytes) -> None:
+    """Reads no answer; who is let go comes again."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        asking = []
+        for _ in range(connections):
+            asking.append(connect(observer.web))
+            with contextlib.suppress(OSError):
+                asking[-1].sendall(request)
+        time.sleep(2.0)
+        for each in asking:
+            each.close()
+
+
 def main(nbvopt: str, seconds: float = 15.0) -> None:
     attacks = {
         "none": lambda observer, seconds: time.sleep(seconds),
@@ -104,6 +120,9 @@ def main(nbvopt: str, seconds: float = 15.0) -> None:
         "120 connections x 1 such scan": lambda *on: withhold(*on, 120, 1),
         "500 connections that say nothing": lambda *on: be_silent(*on, 500),
         "20 PlanStreams whose answers nobody reads": lambda *on: read_no_plans(*on, 20),
+        "200 halves of a request to the page": lambda *on: ask_the_page(*on, 200, PAGE[:-2]),
+        "200 readers of the page that read nothing": lambda *on: ask_the_page(*on, 200, PAGE),
+        "200 endless lines to the page": lambda *on: ask_the_page(*on, 200, b"G" * 10_000_000),
     }
     print("| attack | resident, MiB | plans of another client | refused | median, s | longest, s |")
     print("| --- | ---: | ---: | ---: | ---: | ---: |")

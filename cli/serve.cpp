@@ -182,8 +182,9 @@ void add_access(CLI::App& serve, ServerOptions& options) {
       ->capture_default_str();
   serve
       .add_option("--web", options.web,
-                  "also show figures for Prometheus, by HTTP under /metrics: HOST:PORT of this "
-                  "machine (port 0: one that is free) or unix:PATH [none]")
+                  "also show the map and the plans to browsers, and under /metrics figures to "
+                  "Prometheus: HOST:PORT of this machine (port 0: one that is free) or unix:PATH "
+                  "[none]")
       ->type_name("ADDRESS");
   add_pem(serve, "--tls-cert", options.tls.certificate, "the server's certificate");
   add_pem(serve, "--tls-key", options.tls.key, "its private key");

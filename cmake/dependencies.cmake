@@ -23,16 +23,17 @@ if(NBVOPT_BUILD_SERVER)
   find_package(Protobuf 3.21 REQUIRED)
   find_package(gRPC 1.51 REQUIRED CONFIG)
   find_package(spdlog 1.10 REQUIRED CONFIG)
-  # For browsers and monitors; without them `nbvopt serve --web` says so.
+  # For browsers and monitors, with the page of the command line; without them `nbvopt serve --web`
+  # says so.
   find_package(PkgConfig)
   if(PkgConfig_FOUND)
     pkg_check_modules(httplib IMPORTED_TARGET cpp-httplib>=0.11)
     pkg_check_modules(prometheus IMPORTED_TARGET prometheus-cpp-core>=1.0)
   endif()
-  if(httplib_FOUND AND prometheus_FOUND)
+  if(httplib_FOUND AND prometheus_FOUND AND NBVOPT_BUILD_CLI)
     set(NBVOPT_WITH_WEB_SERVER ON)
   else()
-    message(STATUS "nbvopt: no web server, libcpp-httplib-dev or prometheus-cpp-dev is missing")
+    message(STATUS "nbvopt: no web server: it needs libcpp-httplib-dev, prometheus-cpp-dev and NBVOPT_BUILD_CLI")
   endif()
 endif()
 # The Python module's: Debian's own Python, whichever else stands before it on the PATH.

@@ -288,6 +288,14 @@ BrickTable::BrickTable(const BrickTable& previous, std::span<const VoxelChange> 
   }
 }
 
+std::vector<BrickKey> BrickTable::read_blocks() const {
+  std::vector<BrickKey> blocks;
+  for (const auto& block : owned_blocks_) {
+    if (block != nullptr) blocks.push_back(block->key);
+  }
+  return blocks;
+}
+
 std::size_t BrickTable::memory_bytes() const {
   std::size_t bytes = blocks_.size() * (sizeof(blocks_[0]) + sizeof(owned_blocks_[0]));
   for (const auto& block : owned_blocks_) {

@@ -80,6 +80,9 @@ class BrickTable {
 
   std::size_t memory_bytes() const;
 
+  /// The blocks of which any brick was read, each once. Thread-safe once the table is whole.
+  std::vector<BrickKey> read_blocks() const;
+
  private:
   static constexpr int kBlockSize = 1 << kBlockBits;
   static constexpr int kBlockBricks = kBlockSize * kBlockSize * kBlockSize;

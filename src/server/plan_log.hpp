@@ -1,9 +1,11 @@
-// What plans came to.
+// What plans came to, and the newest.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 
 #include "nbvopt/planner/plan.hpp"
 #include "nbvopt/v1/planner.pb.h"
@@ -13,7 +15,13 @@ namespace nbvopt {
 /// Safe to share between threads.
 class PlanLog {
  public:
-  void record(PlanStatus status) { ++counts_.at(static_cast<std::size_t>(status)); }
+  void record(std::shared_ptr<const PlanResult> plan);
+
+  struct Newest {
+    std::shared_ptr<const PlanResult> plan;  ///< null: there is none yet
+    std::uint64_t number = 0;                ///< of all plans, from 1 on
+  };
+  Newest newest() const;
 
   /// Adds the count of each status that a plan can have.
   void write(v1::GetStatusReply& reply) const;
@@ -22,6 +30,8 @@ class PlanLog {
   static constexpr std::size_t kStatuses = static_cast<std::size_t>(PlanStatus::certified) + 1;
 
   std::array<std::atomic<std::uint64_t>, kStatuses> counts_{};
+  mutable std::mutex mutex_;
+  Newest newest_;
 };
 
 }  // namespace nbvopt

@@ -101,9 +101,9 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
     const double limit_ms = std::min(message.time_limit_ms(), limits_.max_compute_ms);
     stop_at_latest(request.stop, received, limit_ms);
   }
-  const PlanResult result = planner->plan(request, *solver);
-  plans_.record(result.status);
-  v1::PlanReply reply = to_message(result);
+  const auto result = std::make_shared<const PlanResult>(planner->plan(request, *solver));
+  plans_.record(result);
+  v1::PlanReply reply = to_message(*result);
   reply.set_counting(to_string(store_.robot().sensor.counting));
   if (message.has_request_id()) reply.set_request_id(message.request_id());
   return reply;

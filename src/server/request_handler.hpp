@@ -43,6 +43,7 @@ class RequestHandler {
   /// All but the service's own figures.
   v1::GetStatusReply status(const v1::GetStatusRequest& message) const;
 
+  const PlanLog& plans() const { return plans_; }
   std::uint64_t durable_version() const;
   /// Tells this run of the server from all others.
   std::uint64_t run_id() const { return run_id_; }

@@ -75,10 +75,17 @@ struct Server::Parts {
                     options.limits);
     service.emplace(*handler, connection_log, options.planning_threads);
     if (!options.web.empty()) {
-      web.emplace(options.web, options.limits,
-                  WebSources{.status = [this] { return service->status({}); }});
+      web.emplace(options.web, options.limits, web_sources());
     }
     listen();
+  }
+
+  WebSources web_sources() const {
+    return {.status = [this] { return service->status({}); },
+            .live = {.title = options.map_file.empty() ? "live map" : options.map_file.string(),
+                     .run_id = handler->run_id(),
+                     .published = [this] { return store->published(); },
+                     .newest_plan = [this] { return handler->plans().newest(); }}};
   }
 
   void open_map() {

@@ -1,40 +1,16 @@
 #include "web/map_page.hpp"
 
 #include <string_view>
+#include <utility>
 
+#include "web/answer_json.hpp"
 #include "web/first_captures.hpp"
+#include "web/grid_counts.hpp"
 #include "web/packed.hpp"
 #include "web/voxel_gains.hpp"
 
 namespace nbvopt {
 namespace {
-
-/// Column by column, as WebGL takes it.
-Json matrix_json(const Transform& transform) {
-  const Eigen::Matrix4d& m = transform.matrix();
-  return std::vector<double>(m.data(), m.data() + m.size());
-}
-
-Json camera_json(const SensorOptions& sensor) {
-  return {{"half_fov_horizontal_rad", sensor.half_fov_horizontal_rad},
-          {"half_fov_vertical_rad", sensor.half_fov_vertical_rad},
-          {"range_min_m", sensor.range_min_m},
-          {"range_max_m", sensor.range_max_m},
-          {"is_range_along_axis", sensor.range_axis == RangeAxis::z_depth}};
-}
-
-Json joints_json(const JointPosition& joints) {
-  return {
-      {"pan_rad", joints.pan_rad}, {"tilt_rad", joints.tilt_rad}, {"height_m", joints.height_m}};
-}
-
-Json view_json(const Transform& T_map_base, const Transform& T_map_sensor,
-               const JointPosition& joints, double gain) {
-  return {{"T_map_base", matrix_json(T_map_base)},
-          {"T_map_sensor", matrix_json(T_map_sensor)},
-          {"joints", joints_json(joints)},
-          {"gain", gain}};
-}
 
 /// Two bytes a face: the first capture that saw its voxel, the last number where none did.
 std::string packed_captures(const FaceSet& set,
@@ -55,12 +31,20 @@ std::string packed_captures(const FaceSet& set,
 
 MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
                  const std::optional<KeyBox>& box)
-    : name_(name), mesh_(surface_mesh(map, box)) {
-  const MapCounts counts = map.counts();
+    : MapPage(name, map.lattice(), map.carries_uncertainty(), map.counts(),
+              surface_mesh(map, box)) {}
+
+MapPage::MapPage(const std::string& name, const VoxelGrid& grid)
+    : MapPage(name, grid.lattice(), grid.carries_uncertainty(), grid_counts(grid),
+              surface_mesh(grid)) {}
+
+MapPage::MapPage(const std::string& name, const Lattice& lattice, bool carries_uncertainty,
+                 const MapCounts& counts, SurfaceMesh mesh)
+    : name_(name), mesh_(std::move(mesh)) {
   data_["map"] = {{"name", name},
-                  {"resolution_m", map.resolution_m()},
+                  {"resolution_m", lattice.resolution_m()},
                   {"key_of_origin", Lattice::kKeyOfOrigin},
-                  {"carries_uncertainty", map.carries_uncertainty()},
+                  {"carries_uncertainty", carries_uncertainty},
                   {"occupied_voxels", counts.occupied_voxels},
                   {"free_voxels", counts.free_voxels},
                   {"information", counts.information}};
@@ -75,22 +59,10 @@ MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
 }
 
 void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
-  const PlanRequest& request = answer.request;
-  const MovingMast moving = moving_mast(request, planner.mast());
-  const Transform T_map_current = moving.T_map_sensor(request.joints);
-  const Transform T_map_chosen = moving.T_map_sensor(answer.joints);
-  const Transform T_map_arrived =
-      T_map_chosen * planner.mast().T_base_sensor(answer.joints).inverse();
   data_["camera"] = camera_json(planner.robot().sensor);
-  data_["answer"] = {
-      {"why", answer.why},
-      {"motion_time_s", request.motion_time_s},
-      {"move_time_s", planner.mast().move_time_s(request.joints, answer.joints)},
-      {"current",
-       view_json(request.T_map_base, T_map_current, request.joints, answer.current_gain)},
-      {"chosen", view_json(T_map_arrived, T_map_chosen, answer.joints, answer.gain)}};
+  data_["answer"] = answer_json(answer, planner.mast());
   add_landscape(answer, planner);
-  add_voxel_gains(T_map_chosen, planner);
+  add_voxel_gains(T_map_sensor(answer.request, planner.mast(), answer.joints), planner);
 }
 
 void MapPage::add_landscape(const AnswerFile& answer, const ViewPlanner& planner) {
@@ -144,5 +116,12 @@ void MapPage::add_episode(const std::vector<EpisodeCapture>& captures, const Vox
 }
 
 std::string MapPage::html() const { return page_html(name_, data_, blocks_); }
+
+Json MapPage::json() const {
+  Json json = data_;
+  Json& blocks = json["blocks"] = Json::object();
+  for (const PageBlock& block : blocks_) blocks[block.id] = block.base64;
+  return json;
+}
 
 }  // namespace nbvopt

@@ -33,15 +33,6 @@ std::string policy_hash(const PagePart& part) {
   return "'sha256-" + base64(bytes) + "'";
 }
 
-std::string policy() {
-  std::string scripts;
-  for (const PagePart& part : page_parts()) {
-    if (is_script(part)) scripts += " " + policy_hash(part);
-  }
-  return "default-src 'none'; script-src" + scripts + "; style-src " + policy_hash(part(kStyle)) +
-         "; img-src data:; base-uri 'none'; form-action 'none'";
-}
-
 std::string scripts() {
   std::string html;
   for (const PagePart& part : page_parts()) {
@@ -70,11 +61,21 @@ std::string json_in_html(const Json& data) {
 
 }  // namespace
 
-std::string page_html(const std::string& title, const Json& data,
-                      std::span<const PageBlock> blocks) {
+std::string page_policy(PageKind kind) {
+  std::string scripts;
+  for (const PagePart& part : page_parts()) {
+    if (is_script(part)) scripts += " " + policy_hash(part);
+  }
+  return "default-src 'none'; script-src" + scripts + "; style-src " + policy_hash(part(kStyle)) +
+         "; img-src data:; base-uri 'none'; form-action 'none'" +
+         (kind == PageKind::live ? "; connect-src 'self'" : "");
+}
+
+std::string page_html(const std::string& title, const Json& data, std::span<const PageBlock> blocks,
+                      PageKind kind) {
   const auto filling = [&](std::string_view name) -> std::string {
     if (name == "title") return html_escaped(title);
-    if (name == "policy") return policy();
+    if (name == "policy") return page_policy(kind);
     if (name == "style") return "<style>" + std::string(part(kStyle).content) + "</style>";
     if (name == "scripts") return scripts();
     if (name != "data") throw std::logic_error("the page has no " + std::string(name));

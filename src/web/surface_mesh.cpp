@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "map/brick_reader.hpp"
+#include "map/brick_table.hpp"
 #include "map/map_access.hpp"
 #include "map/uncertainty_octree.hpp"
 #include "nbvopt/core/error.hpp"
@@ -126,17 +127,58 @@ std::uint64_t bricks_in(const KeyBox& box) {
                    std::to_string(most) + " " + things + ": choose a smaller box of it");
 }
 
+/// The bricks of a tree, each read when it is first asked for.
+class TreeBricks {
+ public:
+  explicit TreeBricks(const UncertaintyOcTree& tree) : tree_(tree) {}
+
+  std::vector<BrickKey> blocks() const { return detail::known_blocks(tree_); }
+
+  /// Bricks of other blocks are asked for as neighbours alone.
+  void begin_block() { states_.clear(); }
+
+  /// Null where nothing is known.
+  const BrickStates* states(BrickKey brick) {
+    const std::uint32_t address = brick.x | brick.y << 11 | brick.z << 22;
+    auto found = states_.find(address);
+    if (found == states_.end()) {
+      found = states_.emplace(address, detail::read_brick(tree_, brick, detail::kAllOctants)).first;
+    }
+    return found->second.get();
+  }
+
+ private:
+  const UncertaintyOcTree& tree_;
+  std::unordered_map<std::uint32_t, std::shared_ptr<const BrickStates>> states_;
+};
+
+/// The bricks of a whole grid.
+class GridBricks {
+ public:
+  explicit GridBricks(const detail::BrickTable& table) : table_(table) {}
+
+  std::vector<BrickKey> blocks() const { return table_.read_blocks(); }
+  void begin_block() {}
+  const BrickStates* states(BrickKey brick) const {
+    const detail::Brick* ready = table_.ready_brick(brick);
+    return ready == nullptr ? nullptr : ready->states.get();
+  }
+
+ private:
+  const detail::BrickTable& table_;
+};
+
 /// Goes through a map brick by brick.
+template <typename Bricks>
 class Mesher {
  public:
-  Mesher(const UncertaintyOcTree& tree, const std::optional<KeyBox>& box)
-      : tree_(tree), box_(box) {}
+  Mesher(Bricks bricks, const std::optional<KeyBox>& box) : bricks_(std::move(bricks)), box_(box) {}
 
   SurfaceMesh mesh() {
     constexpr int kBlockSize = 1 << detail::kBlockBits;
-    for (const BrickKey& block : detail::known_blocks(tree_)) {
+    for (const BrickKey& block : bricks_.blocks()) {
       if (box_ && !meets(*box_, block, kBlockSize * kBrickSize)) continue;
-      states_.clear();  // bricks beyond are looked at from this block alone
+      bricks_.begin_block();
       for (int z = 0; z < kBlockSize; ++z) {
         for (int y = 0; y < kBlockSize; ++y) {
           for (int x = 0; x < kBlockSize; ++x) {
@@ -150,7 +192,7 @@ class Mesher {
   }
 
  private:
-  /// The states of a brick, all unknown beyond the lattice and where the tree has nothing.
+  /// The states of a brick, all unknown beyond the lattice and where the map has nothing.
   const BrickStates& states(BrickKey brick) {
     static const BrickStates kUnknown;
     constexpr int kBricks = 65536 / kBrickSize;
@@ -158,12 +200,8 @@ class Mesher {
     if (!is_on_lattice(brick.x) || !is_on_lattice(brick.y) || !is_on_lattice(brick.z)) {
       return kUnknown;
     }
-    const std::uint32_t address = brick.x | brick.y << 11 | brick.z << 22;
-    auto found = states_.find(address);
-    if (found == states_.end()) {
-      found = states_.emplace(address, detail::read_brick(tree_, brick, detail::kAllOctants)).first;
-    }
-    return found->second == nullptr ? kUnknown : *found->second;
+    const BrickStates* states = bricks_.states(brick);
+    return states == nullptr ? kUnknown : *states;
   }
 
   /// Leaves of a brick's voxels those in the box.
@@ -236,9 +274,8 @@ class Mesher {
     if (set.faces > kMostFaces) refuse(kMostFaces, "faces");
   }
 
-  const UncertaintyOcTree& tree_;
-  const std::optional<KeyBox>& box_;
-  std::unordered_map<std::uint32_t, std::shared_ptr<const BrickStates>> states_;
+  Bricks bricks_;
+  const std::optional<KeyBox> box_;
   SurfaceMesh mesh_;
 };
 
@@ -249,7 +286,11 @@ SurfaceMesh surface_mesh(const UncertaintyMap& map, const std::optional<KeyBox>&
   if ((box ? std::min(bricks, bricks_in(*box)) : bricks) > kMostBricks) {
     refuse(kMostBricks, "bricks of 32 x 32 x 32 voxels");
   }
-  return Mesher(detail::MapAccess::tree(map), box).mesh();
+  return Mesher(TreeBricks(detail::MapAccess::tree(map)), box).mesh();
+}
+
+SurfaceMesh surface_mesh(const VoxelGrid& grid) {
+  return Mesher(GridBricks(detail::MapAccess::table(grid)), std::nullopt).mesh();
 }
 
 }  // namespace nbvopt

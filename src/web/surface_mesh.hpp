@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nbvopt/map/uncertainty_map.hpp"
+#include "nbvopt/map/voxel_grid.hpp"
 
 namespace nbvopt {
 
@@ -72,5 +73,9 @@ inline constexpr std::uint64_t kMostBricks = std::uint64_t{1} << 18;
 /// voxels without stored uncertainty have u = 1. Throws InputError beyond kMostFaces of a set, and
 /// where more than kMostBricks in the box are known.
 SurfaceMesh surface_mesh(const UncertaintyMap& map, const std::optional<KeyBox>& box = {});
+
+/// The same of all of a whole grid, such as a server publishes. Throws InputError beyond
+/// kMostFaces.
+SurfaceMesh surface_mesh(const VoxelGrid& grid);
 
 }  // namespace nbvopt

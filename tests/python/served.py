@@ -16,7 +16,7 @@ def _limit_files(most: int) -> None:
 
 
 class Server:
-    """A server in a folder of its own, which holds its data folder too."""
+    """A server in a folder of its own, which holds its data folder too; `web` is its page."""
 
     def __init__(self, *arguments: str, listen: str = "", max_files: Optional[int] = None):
         """DATA in an argument stands for the data folder; `max_files` is the limit that it has."""
@@ -40,6 +40,8 @@ class Server:
             self.stop()
             raise RuntimeError(f"the server did not start: {said}")
         self.address = ready.removeprefix("listening on ").strip()
+        if "--web" in arguments:
+            self.web = self._process.stdout.readline().removeprefix("page at ").strip()
 
     def memory_mib(self) -> float:
         """What is resident."""
@@ -48,8 +50,12 @@ class Server:
     def log(self) -> str:
         return (self.folder / "log").read_text()
 
-    def stop(self) -> None:
+    def end(self) -> None:
+        """Ends it before the test does."""
         self._process.terminate()
         self._process.wait()
+
+    def stop(self) -> None:
+        self.end()
         self._process.stdout.close()
         shutil.rmtree(self.folder)

@@ -5,87 +5,34 @@ import os
 import pathlib
 import shutil
 import subprocess
-import tempfile
 import unittest
 
+from browser import HOSTILE, BrowserTest
+
 try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
-    webdriver = None
+    pass  # BrowserTest skips
 
 DATASETS = pathlib.Path(__file__).resolve().parents[2] / "datasets"
 OFFICE = str(DATASETS / "office_partial.ot")
 QUERY = "--base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 --motion-time 1 --max-evals 50".split()
-HOSTILE = "</script><script>window.hacked = 1</script><img src=x onerror='window.hacked = 1'>"
-
-# What the picture shows: how many pixels are not of its most frequent colour, and how many colours
-# there are. Read in the task that draws it, before the browser takes the picture.
-LOOK = """
-  page.drawNow();
-  const copy = document.createElement("canvas");
-  [copy.width, copy.height] = [320, 200];
-  const brush = copy.getContext("2d");
-  brush.drawImage(page.element("scene"), 0, 0, copy.width, copy.height);
-  const pixels = new Uint32Array(brush.getImageData(0, 0, copy.width, copy.height).data.buffer);
-  const counts = new Map();
-  for (const p of pixels) counts.set(p, (counts.get(p) || 0) + 1);
-  return {drawn: pixels.length - Math.max(...counts.values()), colours: counts.size};
-"""
 
 
 def run_cli(*arguments: str) -> None:
     subprocess.run([os.environ["NBVOPT_CLI"], *arguments], capture_output=True, check=True)
 
 
-@unittest.skipUnless(webdriver and shutil.which("chromium") and shutil.which("chromedriver"),
-                     "needs chromium, chromium-driver and python3-selenium")
-class ViewTest(unittest.TestCase):
+class ViewTest(BrowserTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        options = webdriver.ChromeOptions()
-        options.binary_location = shutil.which("chromium")
-        for argument in ("--headless", "--no-sandbox", "--disable-quic", "--no-first-run",
-                         "--disable-background-networking", "--disable-component-update",
-                         "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader",
-                         "--enable-unsafe-swiftshader", "--window-size=1000,800",
-                         f"--user-data-dir={cls.folder.name}/profile"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        cls.browser = webdriver.Chrome(options=options,
-                                       service=Service(shutil.which("chromedriver")))
+        super().setUpClass()
         cls.answer = f"{cls.folder.name}/answer.json"
-        cls.page = f"{cls.folder.name}/view.html"
+        cls.page = f"file://{cls.folder.name}/view.html"
         run_cli("query", OFFICE, *QUERY, "--json-out", cls.answer)
-        run_cli("view", OFFICE, "--answer", cls.answer, "-o", cls.page)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
-        cls.folder.cleanup()
-
-    def open(self, page: str) -> None:
-        self.browser.get_log("browser")  # what earlier pages left there
-        self.browser.get(f"file://{page}")
-        WebDriverWait(self.browser, 60, 0.05).until(
-            lambda browser: browser.execute_script("return !!page.isReady && page.pictures > 0"))
-
-    def look(self) -> dict:
-        return self.browser.execute_script(LOOK)
-
-    def click(self, name: str) -> None:
-        self.browser.find_element(By.ID, name).click()
-
-    def text(self, name: str) -> str:
-        return self.browser.find_element(By.ID, name).text
-
-    def assert_quiet(self) -> None:
-        self.assertEqual(self.browser.get_log("browser"), [])
+        run_cli("view", OFFICE, "--answer", cls.answer, "-o", f"{cls.folder.name}/view.html")
 
     def test_draws_the_map_and_heeds_its_switches(self):
         self.open(self.page)
@@ -109,7 +56,7 @@ class ViewTest(unittest.TestCase):
         self.browser.find_element(By.CSS_SELECTOR, "[value=height]").click()
         self.assertIn("height", self.text("ramp-name"))
         self.assertNotEqual(self.look()["colours"], by_uncertainty["colours"])
-        self.browser.execute_script(
+        self.run_script(
             "const cut = page.element('cut'); cut.value = 100; cut.dispatchEvent(new Event('input'))")
         self.assertIn(" m", self.text("cut-height"))
         self.assertLess(self.look()["drawn"], by_uncertainty["drawn"])
@@ -134,7 +81,7 @@ class ViewTest(unittest.TestCase):
         scene = self.browser.find_element(By.ID, "scene")
         x = 316 // 2  # what the panel covers
         ActionChains(self.browser).move_to_element_with_offset(scene, x, 0).perform()
-        WebDriverWait(self.browser, 10, 0.05).until(lambda _: self.text("tip") != "")
+        self.wait_until(lambda: self.text("tip") != "")
         self.assertRegex(self.text("tip"), r"^gain \d+\.\d\d of at most .*\nfrom the unknown$")
         self.assert_quiet()
 
@@ -157,7 +104,7 @@ class ViewTest(unittest.TestCase):
         metrics.write_text("".join(json.dumps(c) + "\n" for c in captures), encoding="utf-8")
         page = f"{self.folder.name}/episode.html"
         run_cli("view", OFFICE, "--episode", str(metrics), "-o", page)
-        self.open(page)
+        self.open(f"file://{page}")
         self.click("show-drive")
         self.assertIn("capture 3 of 3, 1.0 s: information 300", self.text("capture-facts"))
         drawn = [self.look()["drawn"]]
@@ -169,8 +116,7 @@ class ViewTest(unittest.TestCase):
         self.assertGreater(drawn[0], drawn[1] + 50)  # the map was smaller
         self.assertGreater(drawn[1], drawn[2] + 50)
         self.click("play")
-        WebDriverWait(self.browser, 10, 0.05).until(
-            lambda _: "capture 3 of 3" in self.text("capture-facts"))
+        self.wait_until(lambda: "capture 3 of 3" in self.text("capture-facts"))
         self.assert_quiet()
 
     def test_runs_no_text(self):
@@ -185,16 +131,15 @@ class ViewTest(unittest.TestCase):
         answer_file.write_text(json.dumps(answer), encoding="utf-8")
         page = f"{self.folder.name}/hostile.html"
         run_cli("view", str(folder / "map.ot"), "--answer", str(answer_file), "-o", page)
-        self.open(page)
+        self.open(f"file://{page}")
         self.assertIn(HOSTILE, self.text("why"))
-        self.assertIsNone(self.browser.execute_script("return window.hacked || null"))
-        self.assertEqual(self.browser.find_elements(By.TAG_NAME, "img"), [])
+        self.assert_ran_nothing_of(HOSTILE)
         self.assert_quiet()
         # Were a text to become markup after all, the policy would keep it from running.
-        self.browser.execute_script(
+        self.run_script(
             "const script = document.createElement('script'); script.textContent = 'window.hacked = 1';"
             "document.body.append(script)")
-        self.assertIsNone(self.browser.execute_script("return window.hacked || null"))
+        self.assert_ran_nothing_of("a script that was added")
 
 
 if __name__ == "__main__":

@@ -43,6 +43,12 @@ TEST(Page, FetchesNothing) {
   EXPECT_THAT(frame, HasSubstr("href=\"data:,\""));
 }
 
+TEST(Page, AsksItsOwnServerAloneWhereItIsLive) {
+  EXPECT_THAT(page_html("map", Json::object(), {}, PageKind::live),
+              HasSubstr("; connect-src 'self'\""));
+  EXPECT_THAT(page_html("map", Json::object(), {}), Not(HasSubstr("connect-src")));
+}
+
 TEST(Page, OfAnEmptyMapAndOfOneVoxel) {
   UncertaintyMap map(0.1);
   EXPECT_EQ(MapPage("empty", map, std::nullopt).faces(), 0U);

@@ -1,6 +1,8 @@
 #include "server/web/http_stream.hpp"
 
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -12,6 +14,11 @@ bool HttpStream::wait_for(short event, Clock::duration time) const {
   const auto time_ms = std::chrono::ceil<std::chrono::milliseconds>(time).count();
   pollfd socket{socket_.get(), event, 0};
   return time_ms > 0 && ::poll(&socket, 1, static_cast<int>(time_ms)) > 0;
+}
+
+bool HttpStream::is_writable() const {
+  int bytes = 0;
+  return ::ioctl(socket_.get(), SIOCOUTQ, &bytes) == 0 && bytes == 0;
 }
 
 bool HttpStream::receive() {

@@ -30,7 +30,9 @@ class HttpStream final : public httplib::Stream {
   void finish();
 
   bool is_readable() const override { return true; }
-  bool is_writable() const override { return true; }
+  /// Whether the client has taken all that it was sent; what its own system keeps for it counts as
+  /// taken.
+  bool is_writable() const override;
   ssize_t read(char* bytes, size_t size) override;
   ssize_t write(const char* bytes, size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override { nobody(ip, port); }

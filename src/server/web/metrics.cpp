@@ -150,6 +150,11 @@ void add_clients(Families& families, const v1::GetStatusReply& status, const Web
   families.counter("web_answers_total", "Their requests that were answered.", number(web.answers));
   families.counter("web_forbidden_total", "Their requests that were not let in.",
                    number(web.forbidden));
+  families.counter("web_events_total", "Changes that readers of the page were told.",
+                   number(web.events));
+  families.counter("web_event_waits_total",
+                   "Tenths of a second in which a reader had not taken the last one yet.",
+                   number(web.waits));
   families.begin(MetricType::Gauge, "limit", "The limits that the server was started with.");
   for (const v1::Limit& limit : status.limits()) {
     families.add(limit.value(), {{"name", limit.name()}});

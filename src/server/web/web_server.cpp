@@ -1,21 +1,24 @@
 #include "server/web/web_server.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 
 #include "nbvopt/core/error.hpp"
 #include "server/acceptor.hpp"
 #include "server/listening_socket.hpp"
+#include "server/web/connections.hpp"
 #include "server/web/entry_rules.hpp"
+#include "server/web/event_stream.hpp"
 #include "server/web/http_stream.hpp"
+#include "server/web/live_page.hpp"
 #include "server/web/metrics.hpp"
-#include "server/work_queue.hpp"
+#include "web/page.hpp"
 
 namespace nbvopt {
 namespace {
@@ -33,32 +36,6 @@ class HttpServer : public httplib::Server {
   }
 };
 
-/// The connections that have a thread, which can be ended from outside.
-class OpenConnections {
- public:
-  void add(int socket) {
-    const std::scoped_lock lock(mutex_);
-    sockets_.insert(socket);
-    if (is_ending_) ::shutdown(socket, SHUT_RDWR);
-  }
-  /// Closes it.
-  void remove(Descriptor socket) {
-    const std::scoped_lock lock(mutex_);
-    sockets_.erase(socket.get());
-    socket.close();
-  }
-  void end_all() {
-    const std::scoped_lock lock(mutex_);
-    is_ending_ = true;
-    for (const int socket : sockets_) ::shutdown(socket, SHUT_RDWR);
-  }
-
- private:
-  std::mutex mutex_;
-  std::set<int> sockets_;
-  bool is_ending_ = false;
-};
-
 WebCaller caller_of(const httplib::Request& request) {
   const auto header = [&](const char* name) { return request.get_header_value(name); };
   return {.method = request.method,
@@ -74,6 +51,17 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
   response.set_content(why + "\n", "text/plain");
 }
 
+/// Answers with a text that others may hold, too. The library would compress a body of its own for
+/// each who asks, and copy it.
+void give(httplib::Response& response, std::shared_ptr<const std::string> text, const char* type) {
+  const std::size_t size = text->size();
+  response.set_content_provider(
+      size, type,
+      [text = std::move(text)](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(text->data() + from, std::min(length, HttpStream::kPartBytes));
+      });
+}
+
 ListenAddress local_address(const std::string& listen) {
   ListenAddress address = parse_listen_address(listen, "web");
   if (address.is_local) return address;
@@ -87,9 +75,10 @@ ListenAddress local_address(const std::string& listen) {
 struct WebServer::Parts {
   Parts(const std::string& listen, const ServerLimits& limits, WebSources web_sources)
       : sources(std::move(web_sources)),
+        page(sources.live),
         address(local_address(listen)),
         most_send(std::chrono::milliseconds(std::int64_t(limits.max_send_s * 1e3))),
-        threads(static_cast<std::size_t>(limits.max_web_connections), 0) {
+        readers(limits.max_web_connections / 2) {
     set_up();
     std::vector<Descriptor> sockets = listen_on(address);
     acceptor.emplace(
@@ -121,12 +110,18 @@ struct WebServer::Parts {
   }
 
   void hand_over(Descriptor socket) {
+    // Of an answer that nobody takes the system keeps this much, and not megabytes.
+    constexpr int kSendBytes = 128 << 10;
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBytes, sizeof(kSendBytes));
     const int number = socket.get();
     open.add(number);
     const auto shared = std::make_shared<Descriptor>(std::move(socket));
-    // There is a thread for each connection that the acceptor lets in.
-    const bool is_taken = threads.try_post([this, shared] { serve(std::move(*shared)); });
-    if (!is_taken) open.remove(std::move(*shared));
+    try {
+      threads.start([this, shared] { serve(std::move(*shared)); });
+    } catch (const std::system_error& error) {
+      spdlog::warn("event=no_thread_for_web error=\"{}\"", error.what());
+      open.remove(std::move(*shared));
+    }
   }
 
   void serve(Descriptor socket) {
@@ -150,12 +145,35 @@ struct WebServer::Parts {
     if (!request.ranges.empty()) return refuse(response, 416, "ranges are not answered here");
     ++log.answers;
     response.status = 200;
-    if (request.path == "/metrics") {
-      response.set_content(metrics_text(sources.status(), log),
-                           "text/plain; version=0.0.4; charset=utf-8");
+    if (request.path == "/") {
+      response.set_header("Content-Security-Policy",
+                          page_policy(PageKind::live) + "; frame-ancestors 'none'");
+      give(response, page.html(), "text/html; charset=utf-8");
+    } else if (request.path == "/map") {
+      give(response, page.map(), "application/json");
+    } else if (request.path == "/events") {
+      tell(response);
+    } else if (request.path == "/metrics") {
+      give(response, std::make_shared<const std::string>(metrics_text(sources.status(), log)),
+           "text/plain; version=0.0.4; charset=utf-8");
     } else {
-      refuse(response, 404, "there is no such page: see /metrics");
+      refuse(response, 404, "there is no such page: see / and /metrics");
     }
+  }
+
+  /// Tells of changes until the reader or the server ends.
+  void tell(httplib::Response& response) {
+    const auto place = std::make_shared<OpenStreams::Place>(readers);
+    if (!place->is_taken()) {
+      return refuse(response, 503, "too many pages are open, close one or ask again later");
+    }
+    const auto stream = std::make_shared<EventStream>(page, log, most_send);
+    response.set_chunked_content_provider(
+        "text/event-stream", [this, place, stream](std::size_t, httplib::DataSink& sink) {
+          return stream->turn(sink.is_writable(), [&](const std::string& event) {
+            return sink.write(event.data(), event.size());
+          }) && open.wait(EventStream::kTurn);
+        });
   }
 
   void stop() {
@@ -167,12 +185,14 @@ struct WebServer::Parts {
   }
 
   const WebSources sources;
+  LivePage page;
   ListenAddress address;
   const std::chrono::milliseconds most_send;
   WebLog log;
   HttpServer http;
+  OpenStreams readers;
   OpenConnections open;
-  WorkQueue threads;
+  ConnectionThreads threads;
   std::optional<Acceptor> acceptor;
 };
 

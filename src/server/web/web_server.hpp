@@ -8,15 +8,20 @@
 #include "nbvopt/v1/planner.pb.h"
 #include "server/limits.hpp"
 #include "server/listen_address.hpp"
+#include "server/web/live_page.hpp"
 
 namespace nbvopt {
 
-/// Where the figures come from. Called by any thread, until stop().
+/// What it shows. Called by any thread, until it is destroyed.
 struct WebSources {
   std::function<v1::GetStatusReply()> status;
+  LiveSources live;
 };
 
 /// Listens from its construction until stop(), or its destruction. Answers GET of
+///   /         the page of the map, which asks for the next two
+///   /events   LivePage::state() whenever it changes, as Server-Sent Events
+///   /map      LivePage::map()
 ///   /metrics  the server's figures, for Prometheus
 /// to who web_refusal() lets in. A connection is for one request and has a thread of its own.
 class WebServer {

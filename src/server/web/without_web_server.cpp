@@ -10,7 +10,7 @@ WebServer::WebServer(const std::string& /*listen*/, const ServerLimits& /*limits
                      WebSources /*sources*/) {
   throw UsageError(
       "web: this build has no web server: install libcpp-httplib-dev and prometheus-cpp-dev, and "
-      "build again");
+      "build again with NBVOPT_BUILD_CLI");
 }
 
 WebServer::~WebServer() = default;

@@ -9,12 +9,23 @@ page.element = id => document.getElementById(id);
 /** What the page shows, without its large arrays. */
 page.data = JSON.parse(page.element("data").textContent);
 
+/** Its large arrays, packed, by id, where they do not stand in the page itself. */
+page.blocks = {};
+
+/** Takes the packed text of that id, which is not needed twice. */
+const takeBlock = id => {
+  const element = page.element(id);
+  const text = element ? element.textContent : page.blocks[id];
+  if (element) element.remove();
+  delete page.blocks[id];
+  return text;
+};
+
 /** Unpacks the block of that id: a promise of its bytes; none where it is missing or empty. */
 page.bytes = async id => {
-  const block = page.element(id);
-  if (!block || block.textContent === "") return new ArrayBuffer(0);
-  const text = atob(block.textContent);
-  block.remove();  // its text is not needed twice
+  const block = takeBlock(id);
+  if (!block) return new ArrayBuffer(0);
+  const text = atob(block);
   const packed = new Uint8Array(text.length);
   for (let i = 0; i < packed.length; ++i) packed[i] = text.charCodeAt(i);
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));

@@ -105,10 +105,10 @@ faces.unpack = async id => {
   return {rectangles, firstFace, values, captures, count: firstFace.length};
 };
 
-/** The settings that all sets share. */
+/** The settings that all sets share; those of the lattice are the map's, see faces.setLattice. */
 faces.sharedUniforms = () => ({
-  origin: {value: new THREE.Vector3().setScalar(page.data.map.key_of_origin)},
-  resolution: {value: page.data.map.resolution_m},
+  origin: {value: new THREE.Vector3()},
+  resolution: {value: 1},
   ramp: {value: null},
   heights: {value: new THREE.Vector2(0, 1)},
   byHeight: {value: 0},
@@ -116,6 +116,11 @@ faces.sharedUniforms = () => ({
   lastCapture: {value: -1},
   fade: {value: 0},
 });
+
+faces.setLattice = (shared, {key_of_origin, resolution_m}) => {
+  shared.origin.value.setScalar(key_of_origin);
+  shared.resolution.value = resolution_m;
+};
 
 /** A mesh of a set. `look`: {side, opacity, colour}; opaque sets are coloured by their values. */
 faces.mesh = (set, shared, look = {}) => {
@@ -162,6 +167,17 @@ faces.mesh = (set, shared, look = {}) => {
   mesh.frustumCulled = false;  // three.js does not know where the vertices are
   return mesh;
 };
+
+/** Gives back what an object that is shown no more holds of the graphics' memory. */
+faces.forget = object => object.traverse(part => {
+  if (part.geometry) part.geometry.dispose();
+  const {material} = part;
+  if (!material) return;
+  for (const name of ["values", "captures"]) {  // the other textures are shared
+    if (material.uniforms && material.uniforms[name]) material.uniforms[name].value.dispose();
+  }
+  material.dispose();
+});
 
 /** The box of a set without its outermost hundredths, metres: stray voxels count for nothing. */
 faces.usualBox = sets => {

@@ -2,12 +2,14 @@
 "use strict";
 
 (async () => {
-  const {map, answer, camera: sensor} = page.data;
   const canvas = page.element("scene");
   const notice = page.element("notice");
-  for (const part of document.querySelectorAll("[data-of]")) {
-    part.hidden = !page.data[part.dataset.of];
-  }
+  page.showParts = () => {
+    for (const part of document.querySelectorAll("[data-of]")) {
+      part.hidden = !page.data[part.dataset.of];
+    }
+  };
+  page.showParts();
   const context = canvas.getContext("webgl2", {antialias: true});
   if (!context || typeof DecompressionStream === "undefined") {
     notice.textContent = "This page needs WebGL 2 and DecompressionStream: open it in a browser of "
@@ -39,69 +41,98 @@
   };
   controls.addEventListener("change", page.redraw);
 
-  // What is shown.
-  const sets = {seen: await faces.unpack("seen"), backs: await faces.unpack("backs"),
-    frontier: await faces.unpack("frontier")};
+  // What is shown: objects of the scene by the name of their switch, as far as there are any.
+  const shown = {};
   const shared = faces.sharedUniforms();
-  const shown = {
-    seen: faces.mesh(sets.seen, shared),
-    backs: faces.mesh(sets.backs, shared),
-    unknown: faces.mesh(sets.frontier, shared, {side: THREE.BackSide, opacity: 0.45, colour: "#8d6bb8"}),
-    free: faces.mesh(sets.frontier, shared, {opacity: 0.3, colour: "#5aa5c8"}),
+  const follow = name => {
+    const isOn = page.element("show-" + name).checked;
+    if (!shown[name]) return;
+    shown[name].visible = isOn;
+    if (name === "gains") shared.fade.value = isOn ? 0.7 : 0;  // colours tell one thing
+    page.redraw();
   };
-  if (answer) {
-    shown.views = views.answer(answer, sensor);
-    views.tell(answer);
-  }
-  const voxels = page.data.voxel_gains && await gains.voxels();
-  if (voxels) shown.gains = voxels.mesh;
-  const drive = page.data.episode && await episode.unpack();
-  if (drive) shown.drive = episode.objects(drive, sensor);
-  const tick = (name, isOn) => { page.element("show-" + name).checked = isOn; };
-  // A map without free space, or all of whose surfaces look outward, has backs alone.
-  if (sets.seen.count < sets.backs.count / 20) tick("backs", true);
-  for (const [name, object] of Object.entries(shown)) {
+  const hide = name => {
+    if (!shown[name]) return;
+    scene.remove(shown[name]);
+    faces.forget(shown[name]);
+    delete shown[name];
+    page.redraw();
+  };
+  const show = (name, object) => {
+    hide(name);
+    shown[name] = object;
     scene.add(object);
-    const box = page.element("show-" + name);
-    const follow = () => {
-      object.visible = box.checked;
-      if (name === "gains") shared.fade.value = box.checked ? 0.7 : 0;  // colours tell one thing
-      page.redraw();
-    };
-    box.addEventListener("change", follow);
-    follow();
+    follow(name);
+  };
+  for (const box of document.querySelectorAll("[id^=show-]")) {
+    box.addEventListener("change", () => follow(box.id.slice("show-".length)));
   }
 
-  const isEmpty = sets.seen.count + sets.backs.count + sets.frontier.count === 0;
-  const box = faces.usualBox(sets.seen.count + sets.backs.count > 0 ? [sets.seen, sets.backs]
-    : [sets.frontier]);
-  const size_m = box.getSize(new THREE.Vector3());
-  notice.textContent = "The map is empty: nothing is known.";
-  notice.hidden = !isEmpty;
-  page.element("facts").textContent =
-    `${map.occupied_voxels.toLocaleString("en")} voxels of ${map.resolution_m} m, `
-    + `${size_m.toArray().map(s => s.toFixed(1)).join(" x ")} m; information `
-    + `${Math.round(map.information).toLocaleString("en")}`
-    + (map.carries_uncertainty ? "" : "; the map carries no uncertainty");
-
-  // A grid on the ground, for scale.
-  const span_m = Math.max(size_m.x, size_m.y);
-  const mesh_m = span_m > 100 ? 10 : 1;
-  const squares = Math.min(200, 2 * Math.ceil(0.6 * span_m / mesh_m));
-  const grid = new THREE.GridHelper(squares * mesh_m, squares, "#9aa5b1", "#9aa5b1");
-  grid.material.transparent = true;
-  grid.material.opacity = 0.35;
-  grid.rotation.x = Math.PI / 2;
-  const onGrid = c => Math.round(c / mesh_m) * mesh_m;
-  grid.position.set(onGrid((box.min.x + box.max.x) / 2), onGrid((box.min.y + box.max.y) / 2),
-    box.min.z - 0.01);
-  scene.add(grid);
-  page.element("facts").textContent += `; the grid's squares are ${mesh_m} m wide`;
+  // The map, and a grid on the ground, for scale.
+  let sets = {};
+  let box = new THREE.Box3();
+  let ground = null;
+  const showGround = mesh_m => {
+    const size_m = box.getSize(new THREE.Vector3());
+    const squares = Math.min(200, 2 * Math.ceil(0.6 * Math.max(size_m.x, size_m.y) / mesh_m));
+    if (ground) {
+      scene.remove(ground);
+      faces.forget(ground);
+    }
+    ground = new THREE.GridHelper(squares * mesh_m, squares, "#9aa5b1", "#9aa5b1");
+    ground.material.transparent = true;
+    ground.material.opacity = 0.35;
+    ground.rotation.x = Math.PI / 2;
+    const onGrid = c => Math.round(c / mesh_m) * mesh_m;
+    ground.position.set(onGrid((box.min.x + box.max.x) / 2), onGrid((box.min.y + box.max.y) / 2),
+      box.min.z - 0.01);
+    scene.add(ground);
+  };
+  const showMap = async () => {
+    const {map} = page.data;
+    sets = {seen: await faces.unpack("seen"), backs: await faces.unpack("backs"),
+      frontier: await faces.unpack("frontier")};
+    faces.setLattice(shared, map);
+    show("seen", faces.mesh(sets.seen, shared));
+    show("backs", faces.mesh(sets.backs, shared));
+    show("unknown", faces.mesh(sets.frontier, shared,
+      {side: THREE.BackSide, opacity: 0.45, colour: "#8d6bb8"}));
+    show("free", faces.mesh(sets.frontier, shared, {opacity: 0.3, colour: "#5aa5c8"}));
+    const isEmpty = sets.seen.count + sets.backs.count + sets.frontier.count === 0;
+    box = faces.usualBox(sets.seen.count + sets.backs.count > 0 ? [sets.seen, sets.backs]
+      : [sets.frontier]);
+    notice.textContent = "The map is empty: nothing is known.";
+    notice.hidden = !isEmpty;
+    const size_m = box.getSize(new THREE.Vector3());
+    const mesh_m = Math.max(size_m.x, size_m.y) > 100 ? 10 : 1;
+    showGround(mesh_m);
+    page.element("facts").textContent =
+      `${map.occupied_voxels.toLocaleString("en")} voxels of ${map.resolution_m} m, `
+      + `${size_m.toArray().map(s => s.toFixed(1)).join(" x ")} m; information `
+      + `${Math.round(map.information).toLocaleString("en")}`
+      + (map.carries_uncertainty ? "" : "; the map carries no uncertainty")
+      + `; the grid's squares are ${mesh_m} m wide`;
+  };
+  const showAnswer = () => {
+    const {answer, camera} = page.data;
+    if (!answer) return hide("views");
+    show("views", views.answer(answer, camera));
+    views.tell(answer);
+  };
+  const following = page.data.live && await live.first();
+  await showMap();
+  showAnswer();
+  // A map without free space, or all of whose surfaces look outward, has backs alone.
+  if (!following && sets.seen.count < sets.backs.count / 20) page.element("show-backs").click();
+  const voxels = page.data.voxel_gains && await gains.voxels();
+  if (voxels) show("gains", voxels.mesh);
+  const drive = page.data.episode && await episode.unpack();
+  if (drive) show("drive", episode.objects(drive, page.data.camera));
 
   // Colours.
   const legend = page.element("ramp").getContext("2d");
-  shared.heights.value.set(box.min.z, box.max.z);
   const colourBy = name => {
+    shared.heights.value.set(box.min.z, box.max.z);
     const byHeight = name === "height";
     const ramp = page.rampBytes(byHeight ? "viridis" : "cividis");
     if (shared.ramp.value) shared.ramp.value.dispose();
@@ -115,42 +146,49 @@
   };
   for (const choice of document.querySelectorAll("input[name=colour]")) {
     choice.addEventListener("change", () => colourBy(choice.value));
-    choice.checked = choice.value === (map.carries_uncertainty ? "uncertainty" : "height");
+    const tellsUncertainty = following || page.data.map.carries_uncertainty;
+    choice.checked = choice.value === (tellsUncertainty ? "uncertainty" : "height");
     if (choice.checked) colourBy(choice.value);
   }
 
   // The cut.
   const cut = page.element("cut");
-  const follow = () => {
+  const cutAbove = () => {
     const share = cut.value / cut.max;
-    const height_m = box.min.z + share * size_m.z;
+    const height_m = box.min.z + share * (box.max.z - box.min.z);
     shared.cutHeight.value = share < 1 ? height_m : 1e9;
     page.element("cut-height").textContent = share < 1 ? page.shown(height_m, 2, " m") : "(all is shown)";
     page.redraw();
   };
-  cut.addEventListener("input", follow);
-  follow();
+  cut.addEventListener("input", cutAbove);
+  cutAbove();
 
   // Where the eye is.
+  let centre, reach_m;
   const look = (from, at) => {
     eye.position.copy(from);
     controls.target.copy(at);
     controls.update();
     page.redraw();
   };
-  const scope = box.clone();
-  for (const object of [shown.views, shown.drive]) if (object) scope.expandByObject(object);
-  const centre = scope.getCenter(new THREE.Vector3());
-  const reach_m = Math.max(0.5 * scope.getSize(new THREE.Vector3()).length(), 5 * map.resolution_m);
-  eye.far = 100 * reach_m;
-  eye.near = Math.max(1e-3 * reach_m, 0.2 * map.resolution_m);
+  const measure = () => {
+    const scope = box.clone();
+    for (const object of [shown.views, shown.drive]) if (object) scope.expandByObject(object);
+    centre = scope.getCenter(new THREE.Vector3());
+    const {resolution_m} = page.data.map;
+    reach_m = Math.max(0.5 * scope.getSize(new THREE.Vector3()).length(), 5 * resolution_m);
+    eye.far = 100 * reach_m;
+    eye.near = Math.max(1e-3 * reach_m, 0.2 * resolution_m);
+    eye.updateProjectionMatrix();
+  };
+  measure();
   const first = () => {
     look(centre.clone().add(new THREE.Vector3(-0.75, -1.1, 1.25).multiplyScalar(1.05 * reach_m)), centre);
   };
   const above = () => look(centre.clone().add(new THREE.Vector3(0, -1e-3, 2.2).multiplyScalar(reach_m)), centre);
   const throughCamera = () => {
-    if (!answer) return;
-    const T_map_sensor = new THREE.Matrix4().fromArray(answer.chosen.T_map_sensor);
+    if (!page.data.answer) return;
+    const T_map_sensor = new THREE.Matrix4().fromArray(page.data.answer.chosen.T_map_sensor);
     look(new THREE.Vector3().setFromMatrixPosition(T_map_sensor),
       new THREE.Vector3(0, 0, 1).applyMatrix4(T_map_sensor));
   };
@@ -201,7 +239,7 @@
     if (!best) return page.showTip("");
     const u = best.value === 255 ? "1" : (best.value / 255).toFixed(2);
     page.showTip(`voxel at ${best.centre_m.map(c => c.toFixed(2)).join(", ")} m`
-      + (map.carries_uncertainty ? `\nuncertainty ${u}` : ""), clientX, clientY);
+      + (page.data.map.carries_uncertainty ? `\nuncertainty ${u}` : ""), clientX, clientY);
   };
   canvas.addEventListener("pointermove", event => {
     if (!pointer) requestAnimationFrame(point);
@@ -211,10 +249,27 @@
   canvas.addEventListener("pointerleave", () => page.showTip(""));
 
   if (drive) episode.play(drive, shown.drive, shared);
-  if (answer) {
-    const tried = views.frustum(sensor, {colour: new THREE.Color(page.styleColour("--tried"))});
+  if (page.data.landscape) {
+    const tried = views.frustum(page.data.camera, {colour: new THREE.Color(page.styleColour("--tried"))});
     scene.add(tried);
-    await gains.landscape(answer, tried);
+    await gains.landscape(page.data.answer, tried);
+  }
+  if (following) {
+    let hasBeenMoved = false;  // by a person: the view is then theirs
+    controls.addEventListener("start", () => { hasBeenMoved = true; });
+    canvas.addEventListener("wheel", () => { hasBeenMoved = true; });
+    live.follow({
+      showMap: async () => {
+        await showMap();
+        colourBy(document.querySelector("input[name=colour]:checked").value);
+        cutAbove();
+        const [centreBefore, reachBefore_m] = [centre, reach_m];
+        measure();
+        const moved_m = centre.distanceTo(centreBefore) + Math.abs(reach_m - reachBefore_m);
+        if (!hasBeenMoved && moved_m > 0.1 * reachBefore_m) first();
+      },
+      showAnswer,
+    });
   }
 
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", page.redraw);

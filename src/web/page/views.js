@@ -116,6 +116,7 @@ views.answer = (answer, camera) => {
 /** Tells the answer in the table of the panel. */
 views.tell = answer => {
   const table = page.element("answer");
+  table.replaceChildren();
   const row = (cells, tag = "td") => {
     const line = table.insertRow();
     for (const [text, style] of cells) {

@@ -20,7 +20,9 @@ TEST(Metrics, AreWhatTheStatusTells) {
   calls.record_failure(Method::plan, grpc::StatusCode::OUT_OF_RANGE);
   calls.record_shed(Method::insert_scan);
   PlanLog plans;
-  plans.record(PlanStatus::time_limit);
+  PlanResult plan;
+  plan.status = PlanStatus::time_limit;
+  plans.record(std::make_shared<const PlanResult>(plan));
   v1::GetStatusReply status;
   status.set_version("1.2\"\n}");  // nothing ends its line or its quotes
   status.set_map_version(7);

@@ -12,9 +12,13 @@
 
 namespace nbvopt::test {
 
-/// A connection to the port of a web server's address "http://127.0.0.1:PORT/".
-inline Descriptor connect_to(const std::string& url) {
+/// A connection to the port of a web server's address "http://127.0.0.1:PORT/". The system keeps
+/// some `receive_bytes` for it of what it does not read; 0: as many as is usual.
+inline Descriptor connect_to(const std::string& url, int receive_bytes = 0) {
   Descriptor socket(::socket(AF_INET, SOCK_STREAM, 0));
+  if (receive_bytes > 0) {
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &receive_bytes, sizeof(receive_bytes));
+  }
   sockaddr_in where{};
   where.sin_family = AF_INET;
   where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -40,6 +44,14 @@ inline std::string receive_all(const Descriptor& socket) {
   for (ssize_t count = 0; (count = ::recv(socket.get(), bytes, sizeof(bytes), 0)) > 0;) {
     all.append(bytes, static_cast<std::size_t>(count));
   }
+  return all;
+}
+
+/// What comes up to the first `end`, or until the other end closes.
+inline std::string receive_until(const Descriptor& socket, const std::string& end) {
+  std::string all;
+  char byte = 0;
+  while (!all.ends_with(end) && ::recv(socket.get(), &byte, 1, 0) > 0) all += byte;
   return all;
 }
 

@@ -8,13 +8,16 @@
 #include <vector>
 
 #include "nbvopt/core/error.hpp"
+#include "server/web/live_world.hpp"
 #include "server/web/raw_http.hpp"
 #include "support/error_message.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -35,11 +38,14 @@ class WebServerTest : public ::testing::Test {
   }
 
   const ServerLimits limits{.max_send_s = 0.2, .max_web_connections = 4};
-  const WebSources sources{.status = [] {
-    v1::GetStatusReply status;
-    status.set_map_version(42);
-    return status;
-  }};
+  test::LiveWorld world;
+  const WebSources sources{.status =
+                               [] {
+                                 v1::GetStatusReply status;
+                                 status.set_map_version(42);
+                                 return status;
+                               },
+                           .live = world.sources()};
   std::optional<WebServer> server;
 };
 
@@ -50,6 +56,49 @@ TEST_F(WebServerTest, ShowsFigures) {
   EXPECT_THAT(answer, HasSubstr("nbvopt_map_version 42\n"));
   EXPECT_THAT(get("/metrics"), HasSubstr("nbvopt_web_answers_total 2\n"));
   EXPECT_THAT(get("/other"), StartsWith("HTTP/1.1 404 "));
+}
+
+TEST_F(WebServerTest, ShowsThePageAndItsMap) {
+  const std::string page = get("/");
+  EXPECT_THAT(page, HasSubstr("Content-Type: text/html"));
+  EXPECT_THAT(page,
+              HasSubstr("\r\nContent-Security-Policy: default-src 'none'; script-src 'sha256-"));
+  EXPECT_THAT(page, HasSubstr("frame-ancestors 'none'\r\n"));
+  EXPECT_THAT(page, EndsWith("</html>\n"));
+  EXPECT_THAT(get("/map"), HasSubstr("\r\n\r\n{\"map\":{\"name\":\"small\""));
+}
+
+TEST_F(WebServerTest, TellsReadersOfChanges) {
+  const Descriptor reader = test::connect_to(server->address());
+  test::send_all(reader, "GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(test::receive_until(reader, "\n\n"), HasSubstr("\ndata: {\"map\":\"7-1\","));
+  world.scan();
+  EXPECT_THAT(test::receive_until(reader, "\n\n"), HasSubstr("\ndata: {\"map\":\"7-2\","));
+  server->stop();
+  test::receive_all(reader);
+}
+
+TEST_F(WebServerTest, KeepsPlacesFreeOfReaders) {
+  std::vector<Descriptor> readers;
+  for (int i = 0; i < 2; ++i) {
+    readers.push_back(test::connect_to(server->address()));
+    test::send_all(readers.back(), "GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_THAT(test::receive_until(readers.back(), "\n\n"), HasSubstr("7-1"));
+  }
+  EXPECT_THAT(get("/events"), StartsWith("HTTP/1.1 503 "));
+  EXPECT_THAT(get("/metrics"), StartsWith("HTTP/1.1 200 "));
+}
+
+TEST_F(WebServerTest, LetsGoWhoDoesNotTakeItsAnswer) {
+  const std::size_t whole = get("/").size();
+  const Descriptor slow = test::connect_to(server->address(), 4096);
+  test::send_all(slow, "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  const auto connections = [&](int number) {
+    return HasSubstr("nbvopt_web_connections " + std::to_string(number) + "\n");
+  };
+  test::wait_until([&] { return testing::Value(get("/metrics"), connections(2)); });
+  test::wait_until([&] { return testing::Value(get("/metrics"), connections(1)); });
+  EXPECT_LT(test::receive_all(slow).size(), whole);
 }
 
 TEST_F(WebServerTest, KeepsOtherPagesOut) {

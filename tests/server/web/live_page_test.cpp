@@ -1,0 +1,120 @@
+#include "server/web/live_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "core/json.hpp"
+#include "server/web/event_stream.hpp"
+#include "server/web/live_world.hpp"
+
+namespace nbvopt {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class LivePageTest : public ::testing::Test {
+ protected:
+  Json state() const { return parse_json(page.state(), "state"); }
+
+  test::LiveWorld world;
+  LivePage page{world.sources()};
+};
+
+TEST_F(LivePageTest, TellsTheNewestMapAndPlan) {
+  EXPECT_EQ(state()["map"], "7-1");
+  EXPECT_EQ(state()["plan"], 0);
+  EXPECT_FALSE(state().contains("answer"));
+  world.scan();
+  world.plan("first");
+  world.plan("second");
+  EXPECT_EQ(state()["map"], "7-2");
+  EXPECT_EQ(state()["map_version"], 2);
+  EXPECT_EQ(state()["plan"], 2);
+  const Json answer = state()["answer"];
+  const PlanResult& plan = *world.plans.newest().plan;
+  EXPECT_THAT(answer["why"].get<std::string>(), EndsWith("second"));
+  EXPECT_EQ(answer["chosen"]["gain"], plan.view.gain);
+  EXPECT_EQ(answer["current"]["joints"]["pan_rad"], plan.request.joints.pan_rad);
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_NEAR(answer["chosen"]["T_map_sensor"][i], plan.T_map_sensor.matrix().data()[i], 1e-12);
+  }
+}
+
+TEST_F(LivePageTest, KeepsTextsOnOneLine) {
+  world.plan("a\n\ndata: b\r</script>\xff");
+  EXPECT_THAT(page.state(), Not(HasSubstr("\n")));
+  EXPECT_THAT(page.state(), Not(HasSubstr("\r")));
+  EXPECT_THAT(state()["answer"]["why"].get<std::string>(),
+              EndsWith("\n\ndata: b\r</script>\ufffd"));
+}
+
+TEST_F(LivePageTest, MakesAMapOnceForAllWhoAsk) {
+  const auto first = page.map();
+  EXPECT_EQ(page.map(), first);
+  const Json json = parse_json(*first, "map");
+  EXPECT_EQ(json["id"], "7-1");
+  EXPECT_EQ(json["map"]["occupied_voxels"], 200);
+  EXPECT_NE(json["blocks"]["seen"], "");
+  world.scan();
+  EXPECT_EQ(page.map(), first);  // it is too early for another
+  std::this_thread::sleep_for(std::chrono::milliseconds(550));
+  EXPECT_EQ(parse_json(*page.map(), "map")["id"], "7-2");
+}
+
+class EventStreamTest : public LivePageTest {
+ protected:
+  /// What a turn sends; empty for nothing.
+  std::string turn(bool has_taken_all = true) {
+    std::string sent;
+    is_going_on = stream.turn(has_taken_all, [&](const std::string& event) {
+      sent = event;
+      return true;
+    });
+    return sent;
+  }
+
+  WebLog log;
+  EventStream stream{page, log, std::chrono::milliseconds(50)};
+  bool is_going_on = true;
+};
+
+TEST_F(EventStreamTest, TellsWhatIsNewOnce) {
+  EXPECT_EQ(turn(), "retry: 1000\nevent: state\ndata: " + page.state() + "\n\n");
+  EXPECT_EQ(turn(), "");
+  world.scan();
+  EXPECT_EQ(turn(), "event: state\ndata: " + page.state() + "\n\n");
+  EXPECT_EQ(turn(), "");
+  EXPECT_EQ(log.events, 2U);
+}
+
+TEST_F(EventStreamTest, TellsTheNewestOfAMillion) {
+  turn();
+  const auto plan = std::make_shared<const PlanResult>(
+      world.store.published()->plan(test::small_request(), *make_solver("random", {})));
+  for (int i = 0; i < 1'000'000; ++i) world.plans.record(plan);
+  EXPECT_EQ(plan.use_count(), 2);  // here and as the newest
+  EXPECT_THAT(turn(), HasSubstr("\"plan\":1000000,"));
+  EXPECT_EQ(turn(), "");
+  EXPECT_EQ(log.events, 2U);
+}
+
+TEST_F(EventStreamTest, QueuesNothingForWhoDoesNotReadAndLetsItGo) {
+  turn();
+  world.scan();
+  EXPECT_EQ(turn(false), "");
+  EXPECT_TRUE(is_going_on);
+  world.plan("newest");
+  EXPECT_THAT(turn(), HasSubstr("newest"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_EQ(turn(false), "");
+  EXPECT_FALSE(is_going_on);
+  EXPECT_EQ(log.waits, 2U);
+}
+
+}  // namespace
+}  // namespace nbvopt
