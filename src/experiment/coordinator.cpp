@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <deque>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -20,6 +22,10 @@ namespace {
 using Clock = Pool::Clock;
 
 constexpr int kMostAttempts = 2;  ///< a worker may have been killed for another's fault
+
+/// So much work a worker is given at a time: a hundred times what it takes to get the next from
+/// another machine, and no more than is worth losing.
+constexpr double kWorkAhead_ms = 100.0;
 
 /// SIGINT and SIGTERM as something to wait for, while it lives.
 class StopSignals {
@@ -81,6 +87,9 @@ class Queue {
 
   void put_back(const Task& task) { again_.push_back(task); }
 
+  /// How many can be taken at most.
+  std::size_t size() const { return again_.size() + to_do_.size() - next_; }
+
   /// Those that have waited for this one wait no longer.
   void succeed(std::size_t place) {
     has_succeeded_[place] = true;
@@ -109,11 +118,32 @@ class Queue {
 
 /// What is known of a worker.
 struct Worker {
-  enum class State { stopped, starting, idle, at_work };
+  enum class State { stopped, starting, running };
 
   State state = State::stopped;
-  Task task;  ///< that it is at
-  Clock::time_point deadline;
+  std::deque<Task> tasks = {};      ///< that it has been given; it is at the first
+  Clock::time_point deadline = {};  ///< of that one
+
+  bool is_at_work() const { return !tasks.empty(); }
+};
+
+/// How long units take that are about to be handed out, by those before.
+class UnitTimes {
+ public:
+  void add(double busy_ms) {
+    slow_ms_ = std::isinf(slow_ms_) ? busy_ms : std::max(busy_ms, kMemory * slow_ms_);
+  }
+
+  /// How many of them make so much work: of units short and long, few.
+  std::size_t count_in(double work_ms, std::size_t most) const {
+    constexpr double kLeast_ms = 1e-6;  // where workers tell of no time at all
+    const double count = work_ms / std::max(slow_ms_, kLeast_ms);
+    return static_cast<std::size_t>(std::clamp(count, 1.0, static_cast<double>(most)));
+  }
+
+ private:
+  static constexpr double kMemory = 0.95;                     ///< a slow one is forgotten by and by
+  double slow_ms_ = std::numeric_limits<double>::infinity();  ///< before any has ended
 };
 
 class Coordinator {
@@ -135,7 +165,10 @@ class Coordinator {
   bool hands_out() const { return !result_.stopped_by && queue_.has_more(); }
   bool is_over() const;
   void employ(std::size_t index);
+  std::size_t units_a_worker() const;
   void hand_out(std::size_t index);
+  void start_clock(Worker& worker) const;
+  void put_back_rest(Worker& worker);
   bool wait();
   void take(const PoolEvent& event);
   void lose(const PoolEvent& event);
@@ -150,6 +183,7 @@ class Coordinator {
   const std::function<void(const Json&)>& on_record_;
   StopSignals signals_;
   Queue queue_;
+  UnitTimes unit_times_;
   std::vector<Worker> workers_;
   RunResult result_;
 };
@@ -164,37 +198,54 @@ RunResult Coordinator::run() {
 }
 
 bool Coordinator::is_over() const {
-  return !hands_out() && std::ranges::none_of(workers_, [](const Worker& worker) {
-    return worker.state == Worker::State::at_work;
-  });
+  return !hands_out() &&
+         std::ranges::none_of(workers_, [](const Worker& worker) { return worker.is_at_work(); });
 }
 
 /// Gives it something to do, if there is.
 void Coordinator::employ(std::size_t index) {
   Worker& worker = workers_[index];
-  if (worker.state == Worker::State::idle) hand_out(index);
+  if (worker.state == Worker::State::running && !worker.is_at_work()) hand_out(index);
   if (worker.state != Worker::State::stopped || !hands_out()) return;
   pool_.start(index);
   worker.state = Worker::State::starting;
 }
 
+/// How many units a worker should have: so many that it need not wait for the next, and towards the
+/// end fewer, so that all end at about the same time.
+std::size_t Coordinator::units_a_worker() const {
+  const std::size_t share = queue_.size() / (2 * workers_.size());
+  const std::size_t most = std::min(pool_.most_units_a_worker(), share);
+  return unit_times_.count_in(kWorkAhead_ms, std::max<std::size_t>(most, 1));
+}
+
 void Coordinator::hand_out(std::size_t index) {
-  if (!hands_out()) return;
-  const std::optional<Task> task = queue_.take();
-  if (!task) return;
   Worker& worker = workers_[index];
-  worker.state = Worker::State::at_work;
-  worker.task = *task;
+  const std::size_t wanted = units_a_worker();
+  if (2 * worker.tasks.size() > wanted) return;  // it has enough, and messages are to be few
+  const bool was_at_work = worker.is_at_work();
+  std::vector<Unit> units;
+  while (worker.tasks.size() < wanted && hands_out()) {
+    const std::optional<Task> task = queue_.take();
+    if (!task) break;
+    worker.tasks.push_back(*task);
+    units.push_back(work_.unit(to_do_[task->place]));
+  }
+  if (units.empty()) return;
+  if (!was_at_work) start_clock(worker);
+  pool_.hand_out(index, units);
+}
+
+void Coordinator::start_clock(Worker& worker) const {
   worker.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                        std::chrono::duration<double>(timeout_s_));
-  pool_.hand_out(index, work_.unit(to_do_[task->place]));
 }
 
 /// False when everything is to be dropped.
 bool Coordinator::wait() {
   Clock::time_point first = Clock::time_point::max();
   for (const Worker& worker : workers_) {
-    if (worker.state == Worker::State::at_work) first = std::min(first, worker.deadline);
+    if (worker.is_at_work()) first = std::min(first, worker.deadline);
   }
   const std::vector<PoolEvent> events = pool_.wait(first, signals_.descriptor());
   // First: who stops all processes of a group stops the workers as well.
@@ -205,7 +256,7 @@ bool Coordinator::wait() {
   for (const PoolEvent& event : events) take(event);
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     const Worker& worker = workers_[i];
-    if (worker.state == Worker::State::at_work && Clock::now() >= worker.deadline) stop_late(i);
+    if (worker.is_at_work() && Clock::now() >= worker.deadline) stop_late(i);
   }
   return true;
 }
@@ -213,25 +264,39 @@ bool Coordinator::wait() {
 void Coordinator::take(const PoolEvent& event) {
   if (event.kind == PoolEvent::Kind::lost) return lose(event);
   Worker& worker = workers_[event.worker];
-  const bool has_answered = event.kind == PoolEvent::Kind::answered;
-  const Task task = worker.task;
-  worker.state = Worker::State::idle;
+  worker.state = Worker::State::running;
+  std::optional<Task> ended;
+  if (event.kind == PoolEvent::Kind::answered) {
+    ended = worker.tasks.front();
+    worker.tasks.pop_front();
+    if (worker.is_at_work()) start_clock(worker);
+    unit_times_.add(event.outcome.busy_ms);
+  }
   hand_out(event.worker);  // first: it works while its answer is kept
-  if (!has_answered) return;
+  if (!ended) return;
   result_.busy_ms += event.outcome.busy_ms;
-  end(task, event.outcome);
+  end(*ended, event.outcome);
+}
+
+/// What a worker has not begun that has ended is another's.
+void Coordinator::put_back_rest(Worker& worker) {
+  for (const Task& task : worker.tasks) queue_.put_back(task);
+  worker.tasks.clear();
 }
 
 void Coordinator::lose(const PoolEvent& event) {
   Worker& worker = workers_[event.worker];
-  const bool was_at_work = worker.state == Worker::State::at_work;
   worker.state = Worker::State::stopped;
+  if (!worker.is_at_work()) return;
+  const Task task = worker.tasks.front();
+  worker.tasks.pop_front();
+  put_back_rest(worker);
   // After a stop perhaps by the same hand: the unit is run by the next run.
-  if (!was_at_work || result_.stopped_by) return;
-  if (worker.task.attempt < kMostAttempts) {
-    queue_.put_back({worker.task.place, worker.task.attempt + 1});
+  if (result_.stopped_by) return;
+  if (task.attempt < kMostAttempts) {
+    queue_.put_back({task.place, task.attempt + 1});
   } else {
-    end(worker.task, {.answer = Json(), .failure = "its worker ended, twice: " + event.how});
+    end(task, {.answer = Json(), .failure = "its worker ended, twice: " + event.how});
   }
 }
 
@@ -239,9 +304,12 @@ void Coordinator::stop_late(std::size_t index) {
   pool_.stop(index);
   Worker& worker = workers_[index];
   worker.state = Worker::State::stopped;
-  end(worker.task, {.answer = Json(),
-                    .failure = "stopped by the watchdog after " + format_number(timeout_s_) + " s",
-                    .busy_ms = timeout_s_ * 1e3});
+  const Task task = worker.tasks.front();
+  worker.tasks.pop_front();
+  put_back_rest(worker);
+  end(task, {.answer = Json(),
+             .failure = "stopped by the watchdog after " + format_number(timeout_s_) + " s",
+             .busy_ms = timeout_s_ * 1e3});
 }
 
 void Coordinator::end(const Task& task, const Outcome& outcome) {

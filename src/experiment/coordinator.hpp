@@ -24,9 +24,10 @@ struct RunResult {
 /// Runs the units `to_do`, ascending, in about their order; one whose predecessor is among them
 /// waits for its success, and is not run when that fails. A unit fails when its worker says so,
 /// does not answer in time, or ends twice with it. Every record is in its file before the next, and
-/// before a unit that waits for it is handed out; then `on_record` is told of it. On SIGINT and
-/// SIGTERM no unit is handed out any more and those at work are waited for; on a second one they
-/// are dropped.
+/// before a unit that waits for it is handed out; then `on_record` is told of it. Where units are
+/// short, a worker gets several at a time, a tenth of a second's at most as far as those before
+/// tell. On SIGINT and SIGTERM no unit is handed out any more and those that were are waited for;
+/// on a second one they are dropped.
 ///
 /// To be called by a process's only thread, or with both signals blocked in all others; the pool
 /// must be new. Throws InputError when a worker cannot be started or a record not be written, and

@@ -15,8 +15,8 @@ namespace nbvopt::experiment {
 /// What has become of a worker.
 struct PoolEvent {
   enum class Kind {
-    ready,     ///< it was started and takes a unit now
-    answered,  ///< its unit has ended, and it takes another
+    ready,     ///< it was started and takes units now
+    answered,  ///< the first of its units has ended
     lost,      ///< it has ended by itself, or another has ended it; it can be started again
   };
 
@@ -26,7 +26,7 @@ struct PoolEvent {
   std::string how = {};  ///< a lost one ended
 };
 
-/// Workers, numbered from 0, that take one unit at a time each. None of them is started at first.
+/// Workers, numbered from 0, that do one unit at a time each. None of them is started at first.
 class Pool {
  public:
   using Clock = std::chrono::steady_clock;
@@ -39,10 +39,14 @@ class Pool {
   /// Starts a worker that has not been, was stopped or lost. Throws InputError when it cannot be.
   virtual void start(std::size_t worker) = 0;
 
-  /// Gives a unit to a worker that has nothing to do. One that has ended is told of by wait().
-  virtual void hand_out(std::size_t worker, const Unit& unit) = 0;
+  /// How many units a worker can be given before the first of them has ended.
+  virtual std::size_t most_units_a_worker() const { return 1; }
 
-  /// Ends a worker with the unit that it is at.
+  /// Gives units to a worker, which does them after those that it has, in their order. One that has
+  /// ended is told of by wait().
+  virtual void hand_out(std::size_t worker, std::span<const Unit> units) = 0;
+
+  /// Ends a worker with all units that it has.
   virtual void stop(std::size_t worker) = 0;
 
   /// Waits for events, until this time and no longer than until the descriptor `wake` is readable.

@@ -40,14 +40,15 @@ ProcessPool::~ProcessPool() {
 }
 
 void ProcessPool::start(std::size_t worker) {
-  workers_[worker] = {.process = std::make_unique<WorkerProcess>(command_, signals_),
-                      .has_said_hello = false,
-                      .hello_deadline = Clock::now() + kHelloTimeout,
-                      .unit = std::nullopt};
+  Worker& started = workers_[worker];
+  started = {};
+  started.process = std::make_unique<WorkerProcess>(command_, signals_);
+  started.hello_deadline = Clock::now() + kHelloTimeout;
 }
 
-void ProcessPool::hand_out(std::size_t worker, const Unit& unit) {
+void ProcessPool::hand_out(std::size_t worker, std::span<const Unit> units) {
   if (!workers_[worker].process) return;  // lost since it was ready
+  const Unit& unit = units.front();       // one at a time
   workers_[worker].unit = unit.id;
   workers_[worker].process->send(unit_line(unit));
 }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ class ProcessPool final : public Pool {
 
   std::size_t size() const override { return workers_.size(); }
   void start(std::size_t worker) override;
-  void hand_out(std::size_t worker, const Unit& unit) override;
+  void hand_out(std::size_t worker, std::span<const Unit> units) override;
   void stop(std::size_t worker) override;
   std::vector<PoolEvent> wait(Clock::time_point until, int wake) override;
 

@@ -1,8 +1,8 @@
 """Studies and reproductions on a Dask cluster: its workers need Python and the program nbvopt, and
 no files.
 
-    python3 -m nbvopt_dask SPEC --out DIR --scheduler tcp://HOST:8786
-    python3 -m nbvopt_dask --worlds WORLDS --out DIR --scheduler tcp://HOST:8786
+    python3 -m nbvopt_dask study SPEC --out DIR --scheduler tcp://HOST:8786
+    python3 -m nbvopt_dask reproduce --worlds WORLDS --out DIR --scheduler tcp://HOST:8786
 
 or, with a client that you have (of Slurm, Kubernetes, SSH ...),
 
@@ -268,29 +268,33 @@ def _answer(batch, contents, command):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        prog="nbvopt_dask", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="With --worlds, other options are those of nbvopt reproduce.")
-    parser.add_argument("spec", nargs="?", metavar="SPEC")
-    parser.add_argument("--worlds", metavar="DIR", help="of nbvopt reproduce, in place of SPEC")
-    parser.add_argument("--out", required=True, metavar="DIR")
-    parser.add_argument("--scheduler", required=True, metavar="ADDRESS")
-    parser.add_argument("--references", action="store_true", help="of study reference")
-    parser.add_argument("--retry-failed", action="store_true")
-    parser.add_argument("--nbvopt", default="nbvopt", help="the program, here and on the workers")
-    arguments, more = parser.parse_known_args()
-    if (arguments.spec is None) == (arguments.worlds is None) or (more and arguments.spec):
-        parser.error(f"unknown: {' '.join(more)}" if more else "give either SPEC or --worlds")
+    of_both = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    of_both.add_argument("--out", required=True, metavar="DIR")
+    of_both.add_argument("--scheduler", required=True, metavar="ADDRESS")
+    of_both.add_argument("--nbvopt", default="nbvopt", help="the program, here and on the workers")
+    parser = argparse.ArgumentParser(prog="nbvopt_dask", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    study = commands.add_parser("study", parents=[of_both], allow_abbrev=False)
+    study.add_argument("spec", metavar="SPEC")
+    study.add_argument("--references", action="store_true", help="of study reference")
+    study.add_argument("--retry-failed", action="store_true")
+    reproduce = commands.add_parser("reproduce", parents=[of_both], allow_abbrev=False,
+                                    epilog="Other options are those of nbvopt reproduce.")
+    reproduce.add_argument("--worlds", required=True, metavar="DIR")
+    arguments, options = parser.parse_known_args()
     programs = {"nbvopt": arguments.nbvopt, "worker_nbvopt": arguments.nbvopt}
+    if options and arguments.command == "study":
+        parser.error(f"unknown: {' '.join(options)}")
     try:
         with Client(arguments.scheduler) as client:
-            if arguments.worlds:
-                count = run_reproduction(client, arguments.worlds, arguments.out, options=more,
-                                         **programs)
-            else:
+            if arguments.command == "study":
                 count = run_study(client, arguments.spec, arguments.out,
                                   references=arguments.references,
                                   retry_failed=arguments.retry_failed, **programs)
+            else:
+                count = run_reproduction(client, arguments.worlds, arguments.out, options=options,
+                                         **programs)
     except (NbvoptError, OSError) as error:
         parser.exit(3, f"{error}\n")
     print(f"{count} units recorded")

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <deque>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -43,32 +45,31 @@ class NumberedWork final : public Work {
 /// Workers that answer at once, one after the other, unless told otherwise of a unit.
 class MadePool final : public Pool {
  public:
-  explicit MadePool(std::size_t workers) : units_(workers) {}
+  explicit MadePool(std::size_t workers, std::size_t most_units = 1)
+      : most_units_(most_units), units_(workers) {}
 
   std::size_t size() const override { return units_.size(); }
+  std::size_t most_units_a_worker() const override { return most_units_; }
 
   void start(std::size_t worker) override {
     ++starts;
     events_.push_back({.worker = worker, .kind = PoolEvent::Kind::ready});
   }
 
-  void hand_out(std::size_t worker, const Unit& unit) override {
-    EXPECT_EQ(units_[worker], "") << "two units at a time";
-    units_[worker] = unit.id;
-    handed_out.push_back(unit.id);
-    if (hanging.contains(unit.id)) return;
-    PoolEvent event{.worker = worker, .kind = PoolEvent::Kind::answered};
-    event.outcome.answer = Json::object();
-    event.outcome.busy_ms = 2.0;
-    if (failing.contains(unit.id)) event.outcome = {.answer = Json(), .failure = "tired"};
-    if (deadly.contains(unit.id) && deadly[unit.id]-- > 0) {
-      event = {.worker = worker, .kind = PoolEvent::Kind::lost, .how = "Killed"};
+  void hand_out(std::size_t worker, std::span<const Unit> units) override {
+    const bool was_idle = units_[worker].empty();
+    for (const Unit& unit : units) {
+      units_[worker].push_back(unit.id);
+      handed_out.push_back(unit.id);
     }
-    events_.push_back(std::move(event));
+    EXPECT_LE(units_[worker].size(), most_units_);
+    most_held = std::max(most_held, units_[worker].size());
+    ++messages;
+    if (was_idle) begin(worker);
   }
 
   void stop(std::size_t worker) override {
-    EXPECT_NE(units_[worker], "");
+    EXPECT_FALSE(units_[worker].empty());
     units_[worker].clear();
     ++stops;
   }
@@ -82,19 +83,42 @@ class MadePool final : public Pool {
     }
     PoolEvent event = std::move(events_.front());
     events_.erase(events_.begin());
-    units_[event.worker].clear();
+    std::deque<std::string>& units = units_[event.worker];
+    if (event.kind == PoolEvent::Kind::lost) units.clear();
+    if (event.kind == PoolEvent::Kind::answered) {
+      units.pop_front();
+      if (!units.empty()) begin(event.worker);
+    }
     return {std::move(event)};
   }
 
+  double busy_ms = 2.0;  ///< that a unit takes
   std::set<std::string> hanging;
   std::set<std::string> failing;
   std::map<std::string, int> deadly;  ///< how often a unit ends its worker
   std::vector<std::string> handed_out;
+  std::size_t messages = 0;   ///< that units were handed out by
+  std::size_t most_held = 0;  ///< units of a worker at a time
   int starts = 0;
   int stops = 0;
 
  private:
-  std::vector<std::string> units_;
+  /// The worker is at its first unit.
+  void begin(std::size_t worker) {
+    const std::string& unit = units_[worker].front();
+    if (hanging.contains(unit)) return;
+    PoolEvent event{.worker = worker, .kind = PoolEvent::Kind::answered};
+    event.outcome.answer = Json::object();
+    event.outcome.busy_ms = busy_ms;
+    if (failing.contains(unit)) event.outcome = {.answer = Json(), .failure = "tired"};
+    if (deadly.contains(unit) && deadly[unit]-- > 0) {
+      event = {.worker = worker, .kind = PoolEvent::Kind::lost, .how = "Killed"};
+    }
+    events_.push_back(std::move(event));
+  }
+
+  std::size_t most_units_;
+  std::vector<std::deque<std::string>> units_;
   std::vector<PoolEvent> events_;
 };
 
@@ -238,6 +262,50 @@ TEST_F(Coordination, OneThatIsLostAfterAStopIsLeftToTheNextRun) {
   EXPECT_EQ(result.finished, 1U);
   EXPECT_EQ(result.failed, 0U);
   EXPECT_EQ(pool.starts, 1);
+}
+
+/// 0 and those after it.
+std::vector<std::size_t> first(std::size_t count) {
+  std::vector<std::size_t> units(count);
+  std::iota(units.begin(), units.end(), std::size_t{0});
+  return units;
+}
+
+TEST_F(Coordination, ShortUnitsGoSeveralAtATime) {
+  MadePool pool(2, 64);
+  EXPECT_EQ(run(pool, first(1000)).finished, 1000U);
+  EXPECT_EQ(pool.most_held, 50U) << "a tenth of a second's";
+  EXPECT_LT(pool.messages, 100U);
+  EXPECT_EQ(pool.handed_out.size(), 1000U);
+}
+
+TEST_F(Coordination, LongUnitsGoOneByOne) {
+  MadePool pool(2, 64);
+  pool.busy_ms = 1000.0;
+  run(pool, first(100));
+  EXPECT_EQ(pool.most_held, 1U);
+}
+
+TEST_F(Coordination, ALostWorkersOtherUnitsAreOthers) {
+  MadePool pool(2, 64);
+  pool.deadly = {{"500", 2}};
+  const RunResult result = run(pool, first(1000));
+  EXPECT_EQ(result.finished, 1000U);
+  EXPECT_EQ(result.failed, 1U);
+  EXPECT_EQ(records().size(), 1000U);
+  EXPECT_THAT(records(), Contains(std::pair<std::size_t, std::string>(
+                             500, "its worker ended, twice: Killed")));
+}
+
+TEST_F(Coordination, AHangingUnitCostsNoneThatWaitsBehindIt) {
+  MadePool pool(2, 64);
+  pool.hanging = {"500"};
+  const RunResult result = run(pool, first(1000), 0.2);
+  EXPECT_EQ(result.finished, 1000U);
+  EXPECT_EQ(result.failed, 1U);
+  EXPECT_EQ(pool.stops, 1);
+  EXPECT_THAT(records(), Contains(std::pair<std::size_t, std::string>(
+                             500, "stopped by the watchdog after 0.2 s")));
 }
 
 }  // namespace

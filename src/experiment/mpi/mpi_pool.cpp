@@ -8,6 +8,7 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <sstream>
 
 #include "core/json.hpp"
 #include "experiment/process_pool.hpp"
@@ -22,7 +23,7 @@ namespace tag {
 enum Tag : int {
   // to a rank
   start,
-  unit,  ///< a unit's line
+  units,  ///< lines of units, to be done after those before
   stop,
   file,  ///< its path alone
   go_home,
@@ -68,7 +69,7 @@ Told told_in(const std::string& bytes) {
 
 }  // namespace
 
-MpiPool::MpiPool(const MpiSession& session)
+MpiPool::MpiPool(MpiSession& session)
     : session_(session), workers_(static_cast<std::size_t>(session.size() - 1)) {}
 
 MpiPool::~MpiPool() {
@@ -93,13 +94,17 @@ void MpiPool::require_files(std::span<const std::filesystem::path> files) {
 }
 
 void MpiPool::start(std::size_t worker) {
+  workers_[worker].units.clear();
   session_.send(static_cast<int>(worker + 1), tag::start, with_life(++workers_[worker].life, {}));
 }
 
-void MpiPool::hand_out(std::size_t worker, const Unit& unit) {
-  workers_[worker].unit = unit.id;
-  session_.send(static_cast<int>(worker + 1), tag::unit,
-                with_life(workers_[worker].life, unit_line(unit)));
+void MpiPool::hand_out(std::size_t worker, std::span<const Unit> units) {
+  std::string lines;
+  for (const Unit& unit : units) {
+    workers_[worker].units.push_back(unit.id);
+    lines += unit_line(unit) + '\n';
+  }
+  session_.send(static_cast<int>(worker + 1), tag::units, with_life(workers_[worker].life, lines));
 }
 
 void MpiPool::stop(std::size_t worker) {
@@ -119,14 +124,16 @@ void MpiPool::take(const MpiSession::Message& message, std::vector<PoolEvent>& e
   const std::string rank = "rank " + std::to_string(message.rank) + ": ";
   if (message.tag == tag::failed) throw InputError(rank + message.bytes);
   const std::size_t index = static_cast<std::size_t>(message.rank) - 1;
+  Worker& worker = workers_[index];
   const Told told = told_in(message.bytes);
-  if (told.life != workers_[index].life) return;  // of one that was stopped
+  if (told.life != worker.life) return;  // of one that was stopped
   PoolEvent event{.worker = index};
   if (message.tag == tag::answer) {
     std::optional<AnsweredUnit> answered = parse_answer(told.text);
-    if (!answered || answered->id != workers_[index].unit) {
+    if (!answered || worker.units.empty() || answered->id != worker.units.front()) {
       throw InputError(rank + "is no answer: " + told.text.substr(0, 80));
     }
+    worker.units.pop_front();
     event.kind = PoolEvent::Kind::answered;
     event.outcome = std::move(answered->outcome);
   } else if (message.tag == tag::lost) {
@@ -153,7 +160,7 @@ void require_readable(const std::string& file) {
 /// The one worker of a rank, and what it owes the coordinator.
 class Rank {
  public:
-  Rank(const MpiSession& session, const std::vector<std::string>& command)
+  Rank(MpiSession& session, const std::vector<std::string>& command)
       : session_(session), pool_(command, 1) {}
 
   void serve() {
@@ -189,41 +196,63 @@ class Rank {
     if (message.tag == tag::start) {
       life_ = told.life;
       pool_.start(0);
+      is_running_ = true;
       is_at_work_ = true;  // at its start
-    } else if (message.tag == tag::unit) {
-      const Unit unit = parse_unit(told.text);
-      unit_ = unit.id;
-      pool_.hand_out(0, unit);
-      is_at_work_ = true;
+    } else if (message.tag == tag::units) {
+      // Those that were on their way when the worker ended are not its successor's.
+      if (is_running_) take_units(told.text);
     } else {
       pool_.stop(0);
-      is_at_work_ = false;
+      forget_units();
     }
     return true;
   }
 
-  void tell(const PoolEvent& event) {
+  void take_units(const std::string& lines) {
+    std::istringstream in(lines);
+    for (std::string line; std::getline(in, line);) units_.push_back(parse_unit(line));
+    if (!is_at_work_) begin_next();
+  }
+
+  void begin_next() {
+    is_at_work_ = !units_.empty();
+    if (is_at_work_) pool_.hand_out(0, {&units_.front(), 1});
+  }
+
+  void forget_units() {
+    units_.clear();
+    is_running_ = false;
     is_at_work_ = false;
+  }
+
+  void tell(const PoolEvent& event) {
     switch (event.kind) {
       case PoolEvent::Kind::ready:
+        is_at_work_ = false;
         return session_.send(0, tag::ready, with_life(life_, {}));
-      case PoolEvent::Kind::answered:
-        return session_.send(0, tag::answer, with_life(life_, answer_line(unit_, event.outcome)));
+      case PoolEvent::Kind::answered: {
+        const std::string id = units_.front().id;
+        units_.pop_front();
+        begin_next();  // first: it works while its answer is told
+        return session_.send(0, tag::answer, with_life(life_, answer_line(id, event.outcome)));
+      }
       case PoolEvent::Kind::lost:
+        forget_units();
         return session_.send(0, tag::lost, with_life(life_, event.how));
     }
   }
 
-  const MpiSession& session_;
+  MpiSession& session_;
   ProcessPool pool_;
   std::uint64_t life_ = 0;
-  std::string unit_;
-  bool is_at_work_ = false;
+  std::deque<Unit> units_;   ///< that are to be done; the worker is at the first
+  bool is_running_ = false;  ///< the worker
+  bool is_at_work_ = false;  ///< or at its start
 };
 
 }  // namespace
 
-void serve_rank(const MpiSession& session, const std::vector<std::string>& command) {
+void serve_rank(MpiSession& session, const std::vector<std::string>& command) {
   try {
     Rank(session, command).serve();
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -19,7 +20,7 @@ namespace nbvopt::experiment {
 class MpiPool final : public Pool {
  public:
   /// The session must outlive it.
-  explicit MpiPool(const MpiSession& session);
+  explicit MpiPool(MpiSession& session);
   MpiPool(const MpiPool&) = delete;
   MpiPool& operator=(const MpiPool&) = delete;
   /// Sends all ranks home.
@@ -27,7 +28,8 @@ class MpiPool final : public Pool {
 
   std::size_t size() const override { return workers_.size(); }
   void start(std::size_t worker) override;
-  void hand_out(std::size_t worker, const Unit& unit) override;
+  std::size_t most_units_a_worker() const override { return 256; }
+  void hand_out(std::size_t worker, std::span<const Unit> units) override;
   void stop(std::size_t worker) override;
   std::vector<PoolEvent> wait(Clock::time_point until, int wake) override;
   void require_files(std::span<const std::filesystem::path> files) override;
@@ -35,17 +37,17 @@ class MpiPool final : public Pool {
  private:
   struct Worker {
     std::uint64_t life = 0;  ///< how often it was started; what an earlier one says is too late
-    std::string unit;        ///< the id of the one that it is at
+    std::deque<std::string> units;  ///< the ids of those that it has
   };
 
   void take(const MpiSession::Message& message, std::vector<PoolEvent>& events);
 
-  const MpiSession& session_;
+  MpiSession& session_;
   std::vector<Worker> workers_;
 };
 
 /// What a rank but the first does: it serves the first one's pool with a worker that the command
 /// starts, until it is sent home.
-void serve_rank(const MpiSession& session, const std::vector<std::string>& command);
+void serve_rank(MpiSession& session, const std::vector<std::string>& command);
 
 }  // namespace nbvopt::experiment

@@ -4,10 +4,18 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <utility>
 
 #include "experiment/mpi/mpi_environment.hpp"
 
 namespace nbvopt::experiment {
+
+struct MpiSession::Parcel {
+  explicit Parcel(std::string&& sent) : bytes(std::move(sent)) {}
+
+  std::string bytes;
+  MPI_Request request = MPI_REQUEST_NULL;
+};
 
 std::unique_ptr<MpiSession> MpiSession::begin() {
   if (!is_started_by_mpirun()) return nullptr;
@@ -29,13 +37,28 @@ MpiSession::MpiSession() {
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
 }
 
-MpiSession::~MpiSession() { MPI_Finalize(); }
-
-void MpiSession::send(int rank, int tag, std::string_view bytes) const {
-  MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+MpiSession::~MpiSession() {
+  for (Parcel& parcel : on_their_way_) MPI_Wait(&parcel.request, MPI_STATUS_IGNORE);
+  MPI_Finalize();
 }
 
-std::optional<MpiSession::Message> MpiSession::receive() const {
+void MpiSession::send(int rank, int tag, std::string bytes) {
+  Parcel& parcel = on_their_way_.emplace_back(std::move(bytes));
+  MPI_Isend(parcel.bytes.data(), static_cast<int>(parcel.bytes.size()), MPI_BYTE, rank, tag,
+            MPI_COMM_WORLD, &parcel.request);
+  drop_arrived();
+}
+
+void MpiSession::drop_arrived() {
+  on_their_way_.remove_if([](Parcel& parcel) {
+    int has_arrived = 0;
+    MPI_Test(&parcel.request, &has_arrived, MPI_STATUS_IGNORE);
+    return has_arrived != 0;
+  });
+}
+
+std::optional<MpiSession::Message> MpiSession::receive() {
+  drop_arrived();
   int has_come = 0;
   MPI_Message handle = MPI_MESSAGE_NULL;
   MPI_Status status;

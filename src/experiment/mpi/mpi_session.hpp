@@ -1,10 +1,10 @@
 // MPI, from its start to its end: messages between the processes that one mpirun has started.
 #pragma once
 
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace nbvopt::experiment {
 
@@ -23,22 +23,29 @@ class MpiSession {
 
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
-  /// Waits until all processes are as far.
+  /// Waits until what was sent has arrived, and all processes are as far.
   ~MpiSession();
 
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  void send(int rank, int tag, std::string_view bytes) const;
+  /// Returns at once, whatever the rank is doing; messages come in the order in which they were
+  /// sent.
+  void send(int rank, int tag, std::string bytes);
 
   /// A message that has come; none when there is none.
-  std::optional<Message> receive() const;
+  std::optional<Message> receive();
 
  private:
+  /// A message on its way, with its bytes, whose place MPI knows.
+  struct Parcel;
+
   MpiSession();
+  void drop_arrived();
 
   int rank_ = 0;
   int size_ = 0;
+  std::list<Parcel> on_their_way_;
 };
 
 }  // namespace nbvopt::experiment

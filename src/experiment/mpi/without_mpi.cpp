@@ -14,9 +14,11 @@ std::unique_ptr<MpiSession> MpiSession::begin() {
   return nullptr;
 }
 
+struct MpiSession::Parcel {};
+
 MpiSession::MpiSession() = default;
 MpiSession::~MpiSession() = default;
-void MpiSession::send(int /*rank*/, int /*tag*/, std::string_view /*bytes*/) const {}
-std::optional<MpiSession::Message> MpiSession::receive() const { return std::nullopt; }
+void MpiSession::send(int /*rank*/, int /*tag*/, std::string /*bytes*/) {}
+std::optional<MpiSession::Message> MpiSession::receive() { return std::nullopt; }
 
 }  // namespace nbvopt::experiment
