@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """How many units a second a study's coordinator hands out, and its memory.
 
-    bench/measure_coordinator.py NBVOPT [--units 100000 1000000] [--sleep-ms 0 5] [--ranks 2 3 5]
+    bench/measure_coordinator.py NBVOPT [--units 100000 1000000] [--sleep-ms 0 5]
+        [--workers 1 2 4] [--ranks 2 3 5]
 
 Workers only sleep. Prints a row a run: of processes of this machine, then under mpirun, which runs
-one worker a rank but the first.
+one worker a rank but the first. The coordinator's resident memory is that after a tenth of the run
+and the most that it had.
 """
 import argparse
 import os
@@ -40,9 +42,9 @@ def measure(nbvopt, units, sleep_ms, start, workers):
         run = subprocess.Popen([*start, nbvopt, *command], stdout=subprocess.PIPE,
                                stderr=subprocess.DEVNULL, text=True)
         # The coordinator is the first process of nbvopt below the one started.
-        peak_mib = 0.0
+        memory_mib = []
         while run.poll() is None:
-            peak_mib = max(peak_mib, coordinator_mib(run.pid, pathlib.Path(nbvopt).name, bool(start)))
+            memory_mib.append(coordinator_mib(run.pid, pathlib.Path(nbvopt).name, bool(start)))
             try:
                 run.wait(0.2)
             except subprocess.TimeoutExpired:
@@ -53,7 +55,7 @@ def measure(nbvopt, units, sleep_ms, start, workers):
     how = f"mpirun, {workers + 1} ranks" if start else "processes"
     rate = int(done) / float(seconds)
     print(f"| {how} | {workers} | {sleep_ms:g} | {int(done):,} | {rate:,.0f} | {busy} % "
-          f"| {peak_mib:.0f} |", flush=True)
+          f"| {memory_mib[len(memory_mib) // 10]:.0f} to {max(memory_mib):.0f} |", flush=True)
 
 
 def coordinator_mib(pid, name, is_below):
@@ -75,6 +77,7 @@ def main():
     parser.add_argument("nbvopt")
     parser.add_argument("--units", type=int, nargs="+", default=[100_000])
     parser.add_argument("--sleep-ms", type=float, nargs="+", default=[0])
+    parser.add_argument("--workers", type=int, nargs="*", default=[1, 2, 4])
     parser.add_argument("--ranks", type=int, nargs="*", default=[2, 3, 5])
     arguments = parser.parse_args()
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -82,7 +85,7 @@ def main():
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     for units in arguments.units:
         for sleep_ms in arguments.sleep_ms:
-            for workers in (1, 2, 4):
+            for workers in arguments.workers:
                 measure(arguments.nbvopt, units, sleep_ms, [], workers)
             for ranks in arguments.ranks:
                 mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks)]

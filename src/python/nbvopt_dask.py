@@ -79,6 +79,7 @@ class _Run:
         self.waiting = {}  # units, by the id of the one that they wait for
         self.tasks = as_completed()
         self.batches = {}  # of tasks, and how often they were submitted
+        client.upload_file(__file__)  # workers, those to come as well, need not have this module
 
     def run(self, lines, record_command, on_record):
         """How many were recorded."""
