@@ -7,13 +7,16 @@
 #include <optional>
 #include <utility>
 
+#include "cli/ask_server.hpp"
 #include "cli/options/arguments.hpp"
+#include "cli/options/server_arguments.hpp"
 #include "cli/options/view_arguments.hpp"
 #include "cli/options/world_arguments.hpp"
 #include "cli/terminal/output.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
+#include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/hazard_file.hpp"
 #include "sim/calibration_report.hpp"
 
@@ -22,6 +25,7 @@ namespace {
 
 struct CalibrateOptions {
   std::vector<std::pair<std::string, std::string>> drives;  ///< world and trajectory
+  ServerArguments server;                                   ///< or what this one has learnt
   WorldArguments world;                                     ///< how all of them are read
   RobotArguments robot;
   EpisodeOptions episode;
@@ -57,8 +61,19 @@ class DrivenWorlds {
   std::vector<CalibrationDrive> drives_;
 };
 
+/// What a server has learnt while it ran.
+void take_from_server(const CalibrateOptions& options) {
+  const HazardTable hazards = ask_server_for_hazards(options.server);
+  if (!options.hazards_out.empty()) write_hazards(hazards, options.hazards_out);
+  print_answer(options.json ? hazards_json(hazards) : to_text(hazards));
+}
+
 void run_calibrate(CalibrateOptions options) {
+  if (options.drives.empty() == options.server.address.empty()) {
+    throw UsageError("give --drive for each drive, or a --server that learns from its own");
+  }
   if (!options.hazards_out.empty()) require_writable(options.hazards_out);
+  if (!options.server.address.empty()) return take_from_server(options);
   const ThreadLimit thread_limit(options.robot);
   options.episode.robot = make_robot(options.robot);
   options.episode.seed = static_cast<std::uint64_t>(options.seed);
@@ -85,8 +100,7 @@ void set_up_calibrate(CLI::App& app) {
       ->add_option("--drive", options->drives,
                    "a world and a drive through it, which simulate --trajectory-out wrote; to be "
                    "given for each drive")
-      ->type_name("WORLD TRAJECTORY")
-      ->required();
+      ->type_name("WORLD TRAJECTORY");
   calibrate->add_option("--hazards-out", options->hazards_out, "what was learnt, for --hazards")
       ->type_name("FILE.json");
   add_number(*calibrate, "--motion-time", options->episode.motion_time_s, "SECONDS",
@@ -98,6 +112,8 @@ void set_up_calibrate(CLI::App& app) {
   add_world_reading_arguments(*calibrate, options->world);
   calibrate->add_flag("--json", options->json, "print one JSON object instead of text");
   calibrate->add_flag("--no-progress", options->is_silent, "show no progress bar");
+  calibrate->option_defaults()->group("Asking a server (nbvopt serve) what its scans have taught");
+  add_server_arguments(*calibrate, options->server);
   calibrate->footer(
       "Each drive is replayed twice with the expected gain: beginning with nothing, and with\n"
       "what the drives through the other worlds taught. Views are judged by what they realise.\n"

@@ -101,7 +101,7 @@ QueryAnswer search_map(const QueryOptions& options) {
 
 void run_query(const QueryOptions& options) {
   check(options);
-  const QueryAnswer answer = options.server.empty()
+  const QueryAnswer answer = options.server.address.empty()
                                  ? search_map(options)
                                  : ask_server(options, request_of(options, *options.height_m));
   if (!options.json_file.empty()) {

@@ -14,4 +14,8 @@ QueryAnswer ask_server(const QueryOptions& /*options*/, const PlanRequest& /*req
   refuse_left_out("--server", "SERVER");
 }
 
+HazardTable ask_server_for_hazards(const ServerArguments& /*server*/) {
+  refuse_left_out("--server", "SERVER");
+}
+
 }  // namespace nbvopt

@@ -98,15 +98,9 @@ void add_outputs(CLI::App& query, QueryOptions& options) {
 
 void add_server(CLI::App& query, QueryOptions& options) {
   query.option_defaults()->group("Asking a server (nbvopt serve) that holds map and robot");
-  CLI::Option* server =
-      query.add_option("--server", options.server, "HOST:PORT or unix:PATH")->type_name("ADDRESS");
-  add_pem(query, "--tls-ca", options.tls.server_ca, "who signs the server's certificate")
-      ->needs(server);
-  add_pem(query, "--tls-cert", options.tls.certificate, "the caller's certificate")->needs(server);
-  add_pem(query, "--tls-key", options.tls.key, "its private key")->needs(server);
-  for (const char* ours :
-       {"--robot", "--threads", "--evaluator", "--counting", "--gain", "--hazards",
-        "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
+  CLI::Option* server = add_server_arguments(query, options.server);
+  for (const char* ours : {"--robot", "--threads", "--evaluator", "--counting", "--hazards",
+                           "--occupied-uncertainty", "--plot", "--trace", "--landscape"}) {
     query.get_option(ours)->excludes(server);
   }
 }
@@ -122,10 +116,10 @@ void add_query_arguments(CLI::App& query, QueryOptions& options) {
 }
 
 void check(const QueryOptions& options) {
-  if (options.map_file.empty() == options.server.empty()) {
+  if (options.map_file.empty() == options.server.address.empty()) {
     throw UsageError("name a MAP, or a server that holds one by --server, and not both");
   }
-  if (!options.server.empty() && !options.height_m) {
+  if (!options.server.address.empty() && !options.height_m) {
     throw UsageError("--height is needed with --server: the mast is the server's");
   }
   if (options.motion_time_s < 0.0) {

@@ -6,17 +6,16 @@
 #include <optional>
 #include <string>
 
+#include "cli/options/server_arguments.hpp"
 #include "cli/options/solver_arguments.hpp"
 #include "cli/options/view_arguments.hpp"
-#include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/planner/plan.hpp"
 
 namespace nbvopt {
 
 struct QueryOptions {
   std::string map_file;  ///< empty: the server's
-  std::string server;    ///< its address; empty: the map file's
-  ClientTls tls;
+  ServerArguments server;
   Transform T_map_base = Transform::Identity();
   BaseTwist base_twist;
   double pan_rad = 0.0;

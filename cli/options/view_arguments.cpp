@@ -20,8 +20,7 @@ std::string is_gain(const std::string& text) {
 }
 
 void set_gain(SensorOptions& sensor, const RobotArguments& arguments) {
-  if (arguments.gain.empty()) return;
-  store(arguments.gain, sensor.gain);
+  sensor.gain = gain_of(arguments).value_or(sensor.gain);
 }
 
 }  // namespace
@@ -80,6 +79,13 @@ Robot make_robot(const ViewArguments& arguments) {
   Robot robot = make_robot(static_cast<const RobotArguments&>(arguments));
   robot.sensor = evaluator_sensor(arguments.evaluator, robot.sensor);
   return robot;
+}
+
+std::optional<GainChoice> gain_of(const RobotArguments& arguments) {
+  if (arguments.gain.empty()) return std::nullopt;
+  GainChoice gain;
+  store(arguments.gain, gain);  // which was checked when it was read
+  return gain;
 }
 
 std::optional<HazardTable> given_hazards(const RobotArguments& arguments) {

@@ -49,6 +49,9 @@ Robot make_robot(const RobotArguments& arguments);
 /// The same, its sensor as the evaluator wants it.
 Robot make_robot(const ViewArguments& arguments);
 
+/// The gain, if one was asked for.
+std::optional<GainChoice> gain_of(const RobotArguments& arguments);
+
 /// The hazards of the file, if one was given.
 std::optional<HazardTable> given_hazards(const RobotArguments& arguments);
 

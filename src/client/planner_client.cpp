@@ -106,8 +106,10 @@ PlannerClient::PlannerClient(const std::string& address, const ClientTls& tls,
 PlannerClient::PlannerClient(PlannerClient&&) noexcept = default;
 PlannerClient::~PlannerClient() = default;
 
-RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search) {
+RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search,
+                               const std::optional<GainChoice>& gain) {
   v1::PlanRequest message = to_message(request);
+  if (gain) message.set_gain(to_string(*gain));
   *message.mutable_search() = to_message(search);
   if (request.stop.deadline) {
     const std::chrono::duration<double, std::milli> left =
@@ -115,20 +117,25 @@ RemotePlan PlannerClient::plan(const PlanRequest& request, const Search& search)
     message.set_time_limit_ms(std::max(left.count(), std::numeric_limits<double>::min()));
   }
   const v1::PlanReply reply = connection_->call(&v1::Planner::Stub::Plan, message);
-  RemotePlan plan{.result = from_message(reply)};
+  RemotePlan plan;
+  plan.result = from_message(reply);
+  // Servers before this field have the robot's alone, and do not tell it.
+  if (!reply.gain().empty()) plan.gain = gain_from_text(reply.gain(), "the answer's gain");
   plan.result.request = request;
   plan.counting = enum_value<Counting>(reply.counting()).value_or(Counting::per_ray);
   return plan;
 }
 
-RemoteGains PlannerClient::evaluate(std::span<const Transform> poses_T_map_sensor) {
+RemoteGains PlannerClient::evaluate(std::span<const Transform> poses_T_map_sensor,
+                                    const std::optional<GainChoice>& gain) {
   v1::EvaluateRequest message;
+  if (gain) message.set_gain(to_string(*gain));
   for (const Transform& pose : poses_T_map_sensor) {
     *message.add_views()->mutable_sensor() = to_message(pose);
   }
   const v1::EvaluateReply reply = connection_->call(&v1::Planner::Stub::Evaluate, message);
   RemoteGains gains{.gains = {}, .map_version = reply.map_version()};
-  for (const v1::ViewGain& gain : reply.gains()) gains.gains.push_back(from_message(gain));
+  for (const v1::ViewGain& view : reply.gains()) gains.gains.push_back(from_message(view));
   return gains;
 }
 
@@ -205,7 +212,8 @@ ServerStatus PlannerClient::status(bool with_counts) {
           .connections_silent = reply.connections_silent(),
           .counts = from_message(reply.counts()),
           .paper_counts = {.voxels = reply.counts().paper_voxels(),
-                           .information = reply.counts().paper_information()}};
+                           .information = reply.counts().paper_information()},
+          .hazards = from_message(reply.hazards(), reply.hazards_floor_m())};
 }
 
 }  // namespace nbvopt

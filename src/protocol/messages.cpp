@@ -13,6 +13,7 @@
 #include "nbvopt/gain/hazard_file.hpp"
 #include "nbvopt/map/depth_image.hpp"
 #include "protocol/limit_error.hpp"
+#include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
@@ -57,20 +58,6 @@ constexpr auto kFormats = std::to_array<EnumName<MapFormat, v1::MapFormat>>({
     {MapFormat::colour_ot, v1::MAP_FORMAT_COLOUR_OT},
     {MapFormat::colour_ply, v1::MAP_FORMAT_COLOUR_PLY},
 });
-
-/// None where the gain is not expected.
-std::optional<HazardTable> hazards_from(const v1::PlanReply& reply) {
-  if (reply.hazards().empty()) return std::nullopt;
-  HazardTable hazards;
-  const std::vector<std::string> names = hazard_context_names();
-  for (const v1::HazardCount& count : reply.hazards()) {
-    const auto context = std::ranges::find(names, count.context());
-    if (context == names.end()) continue;  // of a newer server
-    hazards.set(static_cast<std::size_t>(context - names.begin()),
-                {.hits = count.hits(), .metres = count.metres()});
-  }
-  return hazards;
-}
 
 CertifyOptions from_message(const v1::CertifyOptions& message) {
   CertifyOptions options;
@@ -286,6 +273,32 @@ PlanRequest from_message(const v1::PlanRequest& message) {
   return request;
 }
 
+GainChoice gain_from_text(const std::string& text, const std::string& field) {
+  constexpr std::size_t kMost = 1000;
+  if (text.size() > kMost) {
+    throw InputError(field + " has " + std::to_string(text.size()) + " letters, at most " +
+                     std::to_string(kMost) + " are read");
+  }
+  GainChoice gain;
+  const std::string demand = store(text, gain);
+  if (!demand.empty()) throw InputError(field + " '" + text + "' must be " + demand);
+  return gain;
+}
+
+std::optional<HazardTable> from_message(
+    const google::protobuf::RepeatedPtrField<v1::HazardCount>& counts, double floor_map_m) {
+  if (counts.empty()) return std::nullopt;
+  HazardTable hazards(floor_map_m);
+  const std::vector<std::string> names = hazard_context_names();
+  for (const v1::HazardCount& count : counts) {
+    const auto context = std::ranges::find(names, count.context());
+    if (context == names.end()) continue;  // of a newer server
+    hazards.set(static_cast<std::size_t>(context - names.begin()),
+                {.hits = count.hits(), .metres = count.metres()});
+  }
+  return hazards;
+}
+
 PlanStatus from_message(v1::PlanStatus status) {
   return value_in(kStatuses, status).value_or(PlanStatus::not_run);
 }
@@ -311,7 +324,7 @@ PlanResult from_message(const v1::PlanReply& reply) {
   result.solver = reply.solver();
   result.seed = reply.seed();
   result.map_version = reply.map_version();
-  result.hazards = hazards_from(reply);
+  result.hazards = from_message(reply.hazards(), 0.0);
   if (reply.has_certificate()) result.certificate = from_message(reply.certificate());
   result.warnings = {reply.warnings().begin(), reply.warnings().end()};
   return result;

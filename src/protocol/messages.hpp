@@ -4,11 +4,13 @@
 // and records that are cut short are refused with an InputError that names the field.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/map/scan.hpp"
 #include "nbvopt/planner/plan.hpp"
+#include "nbvopt/sensor/gain_choice.hpp"
 #include "nbvopt/solver/search.hpp"
 #include "nbvopt/v1/planner.pb.h"
 
@@ -22,6 +24,13 @@ BaseTwist from_message(const v1::BaseTwist& twist, const std::string& field);
 Search from_message(const v1::Search& search);
 ViewGain from_message(const v1::ViewGain& view);
 MapFormat from_message(v1::MapFormat format);
+
+/// A gain's name, or a sum of gains. Throws InputError, which names `field`, for any other text.
+GainChoice gain_from_text(const std::string& text, const std::string& field);
+
+/// What hazards a reply tells; none where it tells of no context.
+std::optional<HazardTable> from_message(
+    const google::protobuf::RepeatedPtrField<v1::HazardCount>& counts, double floor_map_m);
 
 /// Without the stop rule's deadline.
 PlanRequest from_message(const v1::PlanRequest& request);

@@ -115,9 +115,14 @@ class PlannerClient:
         """
         yield from self._stream(self._stub.PlanStream, requests)
 
-    def evaluate(self, views: Iterable[ViewLike]) -> pb.EvaluateReply:
-        """What views are worth, in their order: each a T_map_sensor (4 x 4) or (base, joints)."""
-        request = pb.EvaluateRequest(views=[_view(view) for view in views])
+    def evaluate(
+        self, views: Iterable[ViewLike], gain: Optional[str] = None
+    ) -> pb.EvaluateReply:
+        """What views are worth, in their order: each a T_map_sensor (4 x 4) or (base, joints).
+
+        gain: as in `plan_request`.
+        """
+        request = pb.EvaluateRequest(views=[_view(view) for view in views], gain=gain)
         return self._call(self._stub.Evaluate, request)
 
     def insert_depth_image(
@@ -214,6 +219,7 @@ def plan_request(
     max_evaluations: Optional[int] = None,
     time_limit_ms: Optional[float] = None,
     certify: Optional[float] = None,
+    gain: Optional[str] = None,
     request_id: Optional[int] = None,
 ) -> pb.PlanRequest:
     """A robot's state, and how to search for its next view.
@@ -229,6 +235,7 @@ def plan_request(
         where the robot's gain is neither positive nor expected.
     max_evaluations, time_limit_ms: limits of computing, after which the best so far is answered.
     certify: asks for a bound on what any view in reach gains, and this gap is enough: 0.01, say.
+    gain: what views are worth, by name ("expected"), or a sum; the robot's when not given.
     """
     return pb.PlanRequest(
         base=_base(base),
@@ -242,6 +249,7 @@ def plan_request(
         max_evaluations=max_evaluations,
         time_limit_ms=time_limit_ms,
         certify=None if certify is None else pb.CertifyOptions(gap=certify),
+        gain=gain,
         request_id=request_id,
     )
 

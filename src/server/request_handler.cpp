@@ -87,10 +87,19 @@ void RequestHandler::check_size(const google::protobuf::Message& message) const 
                    " MiB (max_message_mib)");
 }
 
+std::shared_ptr<const ViewPlanner> RequestHandler::planner_by(const std::string* gain) const {
+  std::shared_ptr<const ViewPlanner> planner = store_.published();
+  if (gain == nullptr) return planner;
+  Robot robot = planner->robot();
+  robot.sensor.gain = gain_from_text(*gain, "gain");
+  if (robot.sensor.gain == planner->robot().sensor.gain) return planner;
+  return std::make_shared<const ViewPlanner>(planner->grid(), robot, planner->hazards());
+}
+
 v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
                                    const StopRule& stop) const {
   check_size(message);
-  const std::shared_ptr<const ViewPlanner> planner = store_.published();
+  const auto planner = planner_by(message.has_gain() ? &message.gain() : nullptr);
   PlanRequest request = from_message(message);
   const std::unique_ptr<Solver> solver = make_solver(from_message(message.search()));
   request.stop.cancel = stop.cancel;
@@ -104,7 +113,8 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
   const auto result = std::make_shared<const PlanResult>(planner->plan(request, *solver));
   plans_.record(result);
   v1::PlanReply reply = to_message(*result);
-  reply.set_counting(to_string(store_.robot().sensor.counting));
+  reply.set_counting(to_string(planner->robot().sensor.counting));
+  reply.set_gain(to_string(planner->robot().sensor.gain));
   if (message.has_request_id()) reply.set_request_id(message.request_id());
   return reply;
 }
@@ -116,7 +126,7 @@ v1::EvaluateReply RequestHandler::evaluate(const v1::EvaluateRequest& message,
     throw LimitError("the call has " + std::to_string(message.views_size()) +
                      " views, the limit is " + std::to_string(limits_.max_views) + " (max_views)");
   }
-  const std::shared_ptr<const ViewPlanner> planner = store_.published();
+  const auto planner = planner_by(message.has_gain() ? &message.gain() : nullptr);
   std::vector<Transform> poses_T_map_sensor;
   for (int i = 0; i < message.views_size(); ++i) {
     poses_T_map_sensor.push_back(
@@ -222,7 +232,9 @@ v1::GetStatusReply RequestHandler::status(const v1::GetStatusRequest& message) c
   reply.set_map_bytes(store_.map_bytes());
   reply.set_map_copy_bytes(store_.copy_bytes());
   if (planner->robot().sensor.gain.has(GainKind::expected)) {
-    add_to(*reply.mutable_hazards(), planner->hazards());
+    const HazardTable hazards = planner->hazards();
+    add_to(*reply.mutable_hazards(), hazards);
+    reply.set_hazards_floor_m(hazards.floor_map_m());
   }
   plans_.write(reply);
   v1::ScanTotals& totals = *reply.mutable_scan_totals();

@@ -59,6 +59,8 @@ class RequestHandler {
 
   /// The stop rule with the server's own limit of computing.
   StopRule limited(const StopRule& stop, StopRule::Clock::time_point received) const;
+  /// On the newest version of the map, by the gain of that name; null: the robot's.
+  std::shared_ptr<const ViewPlanner> planner_by(const std::string* gain) const;
   /// Throws LimitError when a message is too large.
   void check_size(const google::protobuf::Message& message) const;
   /// Throws RequestError when there is none.

@@ -26,6 +26,10 @@ std::string figures(const PredictionRecord& record) {
          decimal(record.correlation(), 3) + ", slope " + decimal(record.slope(), 2);
 }
 
+std::string line(const std::string& context, double hazard_per_m, double metres) {
+  return "  " + context + ": " + decimal(hazard_per_m, 3) + " (" + decimal(metres, 0) + " m)\n";
+}
+
 std::string to_text(const std::string& began_with, const PredictionJudgement& judgement) {
   return "  " + began_with + ": chosen views " + figures(judgement.chosen) + "; random views " +
          figures(judgement.random) + "; regret " + decimal(100.0 * judgement.regret(), 1) +
@@ -56,8 +60,16 @@ std::string to_text(const Calibration& calibration) {
   for (std::size_t c = 0; c < names.size(); ++c) {
     double metres = 0.0;
     for (const DriveCalibration& drive : calibration.drives) metres += drive.learnt.count(c).metres;
-    text += "  " + names[c] + ": " + decimal(calibration.hazards.hazard_per_m(c), 3) + " (" +
-            decimal(metres, 0) + " m)\n";
+    text += line(names[c], calibration.hazards.hazard_per_m(c), metres);
+  }
+  return text;
+}
+
+std::string to_text(const HazardTable& hazards) {
+  std::string text = "hits a metre, prior included:\n";
+  const std::vector<std::string> names = hazard_context_names();
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    text += line(names[c], hazards.hazard_per_m(c), hazards.count(c).metres);
   }
   return text;
 }

@@ -11,4 +11,7 @@ namespace nbvopt {
 Json to_json(const Calibration& calibration);
 std::string to_text(const Calibration& calibration);
 
+/// A table alone: of each context the hazard and over how many metres, prior included.
+std::string to_text(const HazardTable& hazards);
+
 }  // namespace nbvopt

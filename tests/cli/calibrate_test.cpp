@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
+#include "cli/served.hpp"
 #include "nbvopt/gain/hazard_file.hpp"
 
 namespace nbvopt {
@@ -54,6 +55,36 @@ TEST(Calibrate, TellsPeopleHowGoodItIs) {
                            "unknown_middle_deep"}) {
     EXPECT_THAT(run.out, HasSubstr(part));
   }
+}
+
+TEST(Calibrate, TakesWhatAServerHasLearnt) {
+  const test::ServerFolder folder;
+  const test::Served served(folder, folder.arguments({"--gain", "expected"}));
+  PlannerClient client(folder.socket());
+  const Transform T_map_base = base_pose(0.0, 0.0, 0.0, 0.0);
+  client.insert_scan(test::small_scan(), T_map_base * test::scan_pose(0));
+  const std::string hazards = folder.folder / "hazards.json";
+  const auto json =
+      nbvopt_json({"calibrate", "--server", folder.socket(), "--hazards-out", hazards, "--json"});
+  EXPECT_EQ(nlohmann::json::parse(hazards_json(read_hazards(hazards))), json);
+  EXPECT_GT(read_hazards(hazards).total().metres, HazardTable().total().metres);
+  EXPECT_EQ(read_hazards(hazards), *client.status().hazards);
+  EXPECT_THAT(nbvopt_run({"calibrate", "--server", folder.socket()}).out,
+              HasSubstr("unknown_middle_deep: "));
+  // Asked by a gain that is not the robot's.
+  const auto answer =
+      nbvopt_json({"query", "--server", folder.socket(), "--base", "0,0,0", "--height", "0.4",
+                   "--motion-time", "0.5", "--gain", "positive", "--json"});
+  EXPECT_FALSE(answer.contains("hazards"));
+}
+
+TEST(Calibrate, SaysWhenAServerLearnsNothing) {
+  const test::ServerFolder folder;
+  const test::Served served(folder, folder.arguments({"--gain", "positive"}));
+  const auto run = nbvopt_run({"calibrate", "--server", folder.socket()});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("learns no hazards: its gain is not expected"));
+  EXPECT_THAT(nbvopt_run({"calibrate"}).err, HasSubstr("--drive for each drive, or a --server"));
 }
 
 TEST(Calibrate, RefusesWhatCannotBeReplayed) {

@@ -45,6 +45,33 @@ TEST_F(RequestHandlerTest, PlansAsThePlannerDoes) {
   EXPECT_EQ(reply.counting(), "per_ray");
 }
 
+TEST_F(RequestHandlerTest, JudgesByTheGainThatIsAskedFor) {
+  EXPECT_EQ(plan(to_message(test::small_request())).gain(), "positive");
+  for (const char* gain : {"expected", "positive + 0.5*rear_side_voxel"}) {
+    Robot robot = test::small_robot();
+    robot.sensor.gain = gain_from_text(gain, "gain");
+    const ViewPlanner planner(store.published()->grid(), robot);
+    const PlanResult expected = planner.plan(test::small_request());
+    v1::PlanRequest request = to_message(test::small_request());
+    request.set_gain(gain);
+    const v1::PlanReply reply = plan(request);
+    EXPECT_EQ(reply.gain(), gain);
+    EXPECT_EQ(from_message(reply).joints, expected.joints) << gain;
+    EXPECT_EQ(from_message(reply).view, expected.view) << gain;
+    EXPECT_EQ(reply.hazards().empty(), gain != std::string("expected"));
+    v1::EvaluateRequest views;
+    *views.add_views()->mutable_sensor() = to_message(expected.T_map_sensor);
+    views.set_gain(gain);
+    EXPECT_EQ(from_message(handler.evaluate(views, Clock::now(), {}).gains(0)), expected.view);
+  }
+  v1::PlanRequest request = to_message(test::small_request());
+  request.set_gain("positiv");
+  EXPECT_THAT(test::message_of<InputError>([&] { plan(request); }),
+              HasSubstr("gain 'positiv' must be"));
+  request.set_gain(std::string(1001, '+'));
+  EXPECT_THAT(test::message_of<InputError>([&] { plan(request); }), HasSubstr("1001 letters"));
+}
+
 TEST_F(RequestHandlerTest, HeedsWhatLimitsAPlan) {
   v1::PlanRequest request = to_message(test::small_request());
   request.set_max_evaluations(20);

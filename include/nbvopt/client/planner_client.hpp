@@ -65,10 +65,11 @@ struct ScanReceipt {
   std::uint64_t points_off_lattice = 0;
 };
 
-/// An answer, and how its views were counted.
+/// An answer, and how its views were judged.
 struct RemotePlan {
   PlanResult result;
   Counting counting = Counting::per_ray;
+  GainChoice gain;
 };
 
 struct RemoteGains {
@@ -96,6 +97,9 @@ struct ServerStatus {
   std::uint64_t connections_silent = 0;   ///< that were closed since they said nothing
   MapCounts counts;                       ///< where asked for
   PaperCounts paper_counts;
+  /// Where the robot's gain is expected: what it takes for likely of the unknown now, learnt scans
+  /// and prior together.
+  std::optional<HazardTable> hazards;
 };
 
 /// A connection, made when it is first needed. Every call waits for its answer at most `timeout`
@@ -111,9 +115,11 @@ class PlannerClient {
   /// The request's deadline and evaluation limit are sent along; its cancel flag and its trace are
   /// not. Throws InputError for a search whose tolerance, initial step or stages' parameters, the
   /// solvers aside, are not the defaults: a server takes none.
-  RemotePlan plan(const PlanRequest& request, const Search& search = {});
+  RemotePlan plan(const PlanRequest& request, const Search& search = {},
+                  const std::optional<GainChoice>& gain = {});
 
-  RemoteGains evaluate(std::span<const Transform> poses_T_map_sensor);
+  RemoteGains evaluate(std::span<const Transform> poses_T_map_sensor,
+                       const std::optional<GainChoice>& gain = {});
 
   ScanReceipt insert_scan(const Scan& scan, const Transform& T_map_sensor);
 
