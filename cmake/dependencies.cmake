@@ -47,6 +47,8 @@ endif()
 # The command line's.
 if(NBVOPT_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED CONFIG)
+  find_package(BZip2 1.0 REQUIRED)  # chunks of rosbags
+  find_library(lz4_library lz4 REQUIRED)
 endif()
 # The ROS node's. Debian's pkg-config files name what CMake's of ROS look for by catkin.
 if(NBVOPT_BUILD_ROS)

@@ -93,7 +93,7 @@ class RecordingTest : public ::testing::Test {
   void expect_the_map_by_hand(const RecordingOptions& options, std::uint64_t without_pose = 0) {
     const Recording recording = find_recording(folder.path(), options);
     EXPECT_EQ(recording.frames_without_pose, without_pose);
-    MapBuilder builder(recording, {}, kVoxel_m, folder / "map.partial");
+    MapBuilder builder(make_folder_frames(recording), {}, kVoxel_m, folder / "map.partial");
     while (!builder.is_done()) EXPECT_EQ(builder.insert_next_frame(), "");
     EXPECT_EQ(builder.counts().frames_inserted, static_cast<std::uint64_t>(kFrames));
     expect_equal(builder.map(), by_hand);
@@ -337,7 +337,7 @@ TEST_F(RecordingTest, CloudsInTheMapFrame) {
   RecordingOptions options{.format = RecordingFormat::map_frame};
   options.pose_file = write("origins/poses.txt", origins);
   const Recording recording = find_recording(folder.path(), options);
-  MapBuilder builder(recording, {}, kVoxel_m, folder / "map.partial");
+  MapBuilder builder(make_folder_frames(recording), {}, kVoxel_m, folder / "map.partial");
   while (!builder.is_done()) EXPECT_EQ(builder.insert_next_frame(), "");
   EXPECT_NEAR(builder.map().counts().occupied_voxels, by_hand.counts().occupied_voxels, 2)
       << "but for rounding at the faces of voxels";
@@ -363,17 +363,17 @@ class StoppedBuild : public RecordingTest {
 
 TEST_F(StoppedBuild, GoesOnWhereItWas) {
   const Recording frames = recording();
-  MapBuilder whole(frames, {}, kVoxel_m, partial);
+  MapBuilder whole(make_folder_frames(frames), {}, kVoxel_m, partial);
   while (!whole.is_done()) whole.insert_next_frame();
   {
-    MapBuilder first(frames, {}, kVoxel_m, partial);
+    MapBuilder first(make_folder_frames(frames), {}, kVoxel_m, partial);
     first.insert_next_frame();
     first.insert_next_frame();
     first.save();
     first.insert_next_frame();  // is lost
   }
   EXPECT_NO_THROW(read_map(partial)) << "what is there can be looked at";
-  MapBuilder second(frames, {}, kVoxel_m, partial);
+  MapBuilder second(make_folder_frames(frames), {}, kVoxel_m, partial);
   EXPECT_EQ(second.frames_done(), 2U);
   while (!second.is_done()) second.insert_next_frame();
   EXPECT_EQ(second.counts(), whole.counts());
@@ -382,9 +382,10 @@ TEST_F(StoppedBuild, GoesOnWhereItWas) {
 
 TEST_F(StoppedBuild, IsNotTakenForAnother) {
   const Recording frames = recording();
-  MapBuilder(frames, {}, kVoxel_m, partial).save();
+  MapBuilder(make_folder_frames(frames), {}, kVoxel_m, partial).save();
   const auto refusal = [&](const Recording& other, const SensorOptions& sensor, double voxel_m) {
-    return test::message_of<InputError>([&] { MapBuilder(other, sensor, voxel_m, partial); });
+    return test::message_of<InputError>(
+        [&] { MapBuilder(make_folder_frames(other), sensor, voxel_m, partial); });
   };
   EXPECT_EQ(refusal(frames, {}, kVoxel_m), "");
   EXPECT_THAT(refusal(frames, {}, 0.1), HasSubstr("another build"));
@@ -402,7 +403,7 @@ TEST_F(StoppedBuild, LeavesOutFramesThatItSaysAreBad) {
   write("1.xyz", "1 2 three\n");
   write("3.xyz", "0 0 1500\n");
   const Recording frames = recording();
-  MapBuilder builder(frames, {}, kVoxel_m, partial);
+  MapBuilder builder(make_folder_frames(frames), {}, kVoxel_m, partial);
   EXPECT_EQ(builder.insert_next_frame(), "");
   EXPECT_THAT(builder.insert_next_frame(), HasSubstr("1.xyz: line 1"));
   EXPECT_EQ(builder.insert_next_frame(), "");

@@ -61,36 +61,61 @@ void add(const SensorOptions& sensor, Fingerprint& fingerprint) {
   fingerprint.add(to_string(sensor.no_return));
 }
 
-std::string fingerprint_of(const Recording& recording, const SensorOptions& sensor,
+std::string fingerprint_of(const FrameSource& frames, const SensorOptions& sensor,
                            double resolution_m) {
   Fingerprint fingerprint;
   fingerprint.add(resolution_m);
   add(sensor, fingerprint);
-  if (const auto& image = recording.depth_image) {
-    for (const double number :
-         {image->fx_px, image->fy_px, image->cx_px, image->cy_px, image->depth_scale_m}) {
-      fingerprint.add(number);
-    }
-    fingerprint.add(to_string(image->largest_value));
-  }
-  fingerprint.add(to_string(recording.axes));
-  fingerprint.add(to_string(recording.up));
-  fingerprint.add(recording.is_in_world_frame ? "world" : "frame");
-  for (const RecordedFrame& frame : recording.frames) {
-    fingerprint.add(frame.file.filename().string());
-    for (const double number : frame.T_world_frame.matrix().reshaped()) fingerprint.add(number);
-  }
+  frames.identify([&](std::string_view text) { fingerprint.add(text); });
   return fingerprint.text();
 }
 
+/// The frames of a folder.
+class FolderFrames : public FrameSource {
+ public:
+  explicit FolderFrames(Recording recording) : recording_(std::move(recording)) {}
+
+  std::uint64_t frames() const override { return recording_.frames.size(); }
+  PosedScan read(std::uint64_t frame) override {
+    return read_frame(recording_, recording_.frames.at(frame));
+  }
+  std::string name(std::uint64_t frame) const override {
+    return recording_.frames.at(frame).file.string();
+  }
+  void identify(const std::function<void(std::string_view)>& add) const override {
+    const auto add_number = [&](double number) { add(format_number(number)); };
+    if (const auto& image = recording_.depth_image) {
+      for (const double number :
+           {image->fx_px, image->fy_px, image->cx_px, image->cy_px, image->depth_scale_m}) {
+        add_number(number);
+      }
+      add(to_string(image->largest_value));
+    }
+    add(to_string(recording_.axes));
+    add(to_string(recording_.up));
+    add(recording_.is_in_world_frame ? "world" : "frame");
+    for (const RecordedFrame& frame : recording_.frames) {
+      add(frame.file.filename().string());
+      for (const double number : frame.T_world_frame.matrix().reshaped()) add_number(number);
+    }
+  }
+
+ private:
+  Recording recording_;
+};
+
 }  // namespace
 
-MapBuilder::MapBuilder(const Recording& recording, const SensorOptions& sensor, double resolution_m,
-                       fs::path partial_file)
-    : recording_(recording),
+std::unique_ptr<FrameSource> make_folder_frames(Recording recording) {
+  return std::make_unique<FolderFrames>(std::move(recording));
+}
+
+MapBuilder::MapBuilder(std::unique_ptr<FrameSource> frames, const SensorOptions& sensor,
+                       double resolution_m, fs::path partial_file)
+    : frames_(std::move(frames)),
       sensor_(sensor),
       partial_file_(std::move(partial_file)),
-      fingerprint_(fingerprint_of(recording, sensor, resolution_m)),
+      fingerprint_(fingerprint_of(*frames_, sensor, resolution_m)),
       map_(resolution_m) {
   sensor_.validate();
   if (fs::exists(partial_file_)) resume();
@@ -116,21 +141,20 @@ void MapBuilder::resume() {
     return number.value_or(0);
   };
   frames_done_ = next_number();
-  if (frames_done_ > recording_.frames.size()) refuse();
+  if (frames_done_ > frames_->frames()) refuse();
   for (const auto count : kCounts) counts_.*count = next_number();
   in.seekg(0);
   map_ = read_map(in, name);
 }
 
 std::string MapBuilder::insert_next_frame() {
-  const RecordedFrame& frame = recording_.frames.at(frames_done_);
-  ++frames_done_;
+  const std::uint64_t frame = frames_done_++;
   try {
-    const PosedScan posed = read_frame(recording_, frame);
+    const PosedScan posed = frames_->read(frame);
     if (const std::string doubt = none_in_range(count_scan(posed.scan, sensor_), sensor_);
         !doubt.empty()) {
       ++counts_.frames_none_in_range;
-      return frame.file.string() + ": " + doubt;
+      return frames_->name(frame) + ": " + doubt;
     }
     const InsertResult result = insert_scan(map_, posed.scan, posed.T_map_sensor, sensor_);
     ++counts_.frames_inserted;

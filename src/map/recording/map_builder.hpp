@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
+#include "map/recording/frame_source.hpp"
 #include "nbvopt/map/recording.hpp"
 #include "nbvopt/map/uncertainty_map.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
@@ -32,11 +34,11 @@ class MapBuilder {
   /// Goes on from `partial_file` when it is there and holds a part of this very build, all of it
   /// told by the frames, their poses and all options. Throws InputError when it holds one of
   /// another, or when an option is bad.
-  MapBuilder(const Recording& recording, const SensorOptions& sensor, double resolution_m,
+  MapBuilder(std::unique_ptr<FrameSource> frames, const SensorOptions& sensor, double resolution_m,
              std::filesystem::path partial_file);
 
   std::uint64_t frames_done() const { return frames_done_; }
-  bool is_done() const { return frames_done_ == recording_.frames.size(); }
+  bool is_done() const { return frames_done_ == frames_->frames(); }
 
   /// Inserts the next frame. What was wrong with one that is left out, naming it; else nothing.
   std::string insert_next_frame();
@@ -50,7 +52,7 @@ class MapBuilder {
  private:
   void resume();
 
-  const Recording& recording_;
+  std::unique_ptr<FrameSource> frames_;
   SensorOptions sensor_;
   std::filesystem::path partial_file_;
   std::string fingerprint_;

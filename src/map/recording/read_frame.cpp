@@ -3,6 +3,7 @@
 #include "core/input_file.hpp"
 #include "map/byte_reader.hpp"
 #include "map/recording/frame_files.hpp"
+#include "map/recording/frame_source.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/recording.hpp"
 #include "nbvopt/map/scan_file.hpp"
@@ -94,6 +95,14 @@ void transform_points(const Transform& T, Scan& scan) {
 
 }  // namespace
 
+Transform to_optical_axes(PoseAxes axes, Scan& scan) {
+  Transform T_frame_sensor = Transform::Identity();
+  if (axes == PoseAxes::optical) return T_frame_sensor;
+  T_frame_sensor.rotate(rotation_frame_sensor(axes));
+  transform_points(T_frame_sensor.inverse(), scan);
+  return T_frame_sensor;
+}
+
 PosedScan read_frame(const Recording& recording, const RecordedFrame& frame) {
   const bool is_cloud = !is_depth_image(frame.file);
   PosedScan posed{.scan = frame.file.extension() == ".bin"
@@ -109,10 +118,8 @@ PosedScan read_frame(const Recording& recording, const RecordedFrame& frame) {
   }
   if (is_cloud && recording.is_in_world_frame) {
     transform_points(T_world_sensor.inverse(), posed.scan);
-  } else if (is_cloud && recording.axes != PoseAxes::optical) {
-    Transform T_sensor_frame = Transform::Identity();
-    T_sensor_frame.rotate(rotation_frame_sensor(recording.axes).transpose().eval());
-    transform_points(T_sensor_frame, posed.scan);
+  } else if (is_cloud) {
+    to_optical_axes(recording.axes, posed.scan);
   }
   posed.T_map_sensor = T_map_world * T_world_sensor;
   return posed;

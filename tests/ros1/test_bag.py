@@ -1,0 +1,166 @@
+"""`nbvopt map build` of bags that rosbag wrote: the map is that of the frames inserted by hand.
+
+    NBVOPT_CLI=PATH/TO/nbvopt python3 test_bag.py
+"""
+
+import json
+import math
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+MISSING = ""
+try:
+    import rosbag
+    import rospy
+    from geometry_msgs.msg import TransformStamped
+    from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
+    from std_msgs.msg import String
+    from tf2_msgs.msg import TFMessage
+except ImportError as error:
+    MISSING = str(error)
+
+FRAMES = 3
+OPTICAL = (-0.5, 0.5, -0.5, 0.5)  # of a camera that looks along x, x y z w
+WIDTH, HEIGHT, FOCAL = 40, 30, 30.0
+
+
+def stamped(message, time_s: float, frame: str):
+    message.header.stamp = rospy.Time.from_sec(time_s)
+    message.header.frame_id = frame
+    return message
+
+
+def transform(time_s: float, parent: str, child: str, position, orientation) -> "TFMessage":
+    told = stamped(TransformStamped(child_frame_id=child), time_s, parent)
+    p, q = told.transform.translation, told.transform.rotation
+    p.x, p.y, p.z = position
+    q.x, q.y, q.z, q.w = orientation
+    return TFMessage([told])
+
+
+def depths(frame: int) -> np.ndarray:
+    """(HEIGHT, WIDTH) uint16, millimetres."""
+    slope = np.arange(WIDTH, dtype=np.uint16) * 5
+    return np.tile(1500 + 50 * frame + slope, (HEIGHT, 1)).astype(np.uint16)
+
+
+def points(frame: int) -> np.ndarray:
+    """(HEIGHT * WIDTH, 3) float32, those of depths()."""
+    v, u = np.mgrid[:HEIGHT, :WIDTH]
+    z = depths(frame) * 0.001
+    x, y = (u - (WIDTH - 1) / 2) / FOCAL * z, (v - (HEIGHT - 1) / 2) / FOCAL * z
+    return np.stack((x, y, z), axis=-1).reshape(-1, 3).astype(np.float32)
+
+
+@unittest.skipIf(MISSING, f"rosbag is not there: {MISSING}")
+class BagTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_cli(self, *arguments) -> subprocess.CompletedProcess:
+        command = [os.environ["NBVOPT_CLI"], *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, text=True)
+
+    def build(self, bag: pathlib.Path, *arguments) -> dict:
+        out = self.folder / "built.ot"
+        said = self.run_cli("map", "build", bag, out, "--overwrite", "--json", *arguments)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return json.loads(said.stdout)
+
+    def write(self, compression: str) -> pathlib.Path:
+        path = self.folder / f"{compression}.bag"
+        # Chunks of a few messages each.
+        with rosbag.Bag(str(path), "w", compression=compression, chunk_threshold=20_000) as bag:
+
+            def write(topic: str, message, time_s: float) -> None:
+                bag.write(topic, message, rospy.Time.from_sec(time_s))
+
+            camera = transform(1.0, "base_link", "camera_optical_frame", (0, 0, 0.4), OPTICAL)
+            write("/tf_static", camera, 1.0)
+            for i in range(FRAMES + 1):
+                pose = (0.2 * i, 0, 0), (0, 0, math.sin(0.1 * i), math.cos(0.1 * i))
+                write("/tf", transform(10.0 + i, "map", "base_link", *pose), 10.0 + i)
+                write("/chatter", String("x" * 1000), 10.0 + i)
+            for i in range(FRAMES):
+                self.write_frame(write, i)
+        return path
+
+    def write_frame(self, write, frame: int) -> None:
+        time_s = 10.0 + frame
+        info = CameraInfo(height=HEIGHT, width=WIDTH)
+        centre = (WIDTH - 1) / 2, (HEIGHT - 1) / 2
+        info.P = [FOCAL, 0, centre[0], 0, 0, FOCAL, centre[1], 0, 0, 0, 1, 0]
+        write("/depth/camera_info", stamped(info, time_s, "camera_optical_frame"), time_s)
+        image = Image(height=HEIGHT, width=WIDTH, encoding="16UC1", step=2 * WIDTH)
+        image.data = depths(frame).tobytes()
+        write("/depth/image_rect", stamped(image, time_s, "camera_optical_frame"), time_s)
+        cloud = PointCloud2(height=HEIGHT, width=WIDTH, point_step=16, row_step=16 * WIDTH)
+        fields = zip(("x", "y", "z"), (0, 4, 8))
+        cloud.fields = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in fields]
+        padded = np.zeros((HEIGHT * WIDTH, 4), np.float32)
+        padded[:, :3] = points(frame)
+        cloud.data = padded.tobytes()
+        write("/depth/points", stamped(cloud, time_s, "camera_optical_frame"), time_s)
+
+    def by_hand(self) -> bytes:
+        out = self.folder / "by_hand.ot"
+        for i in range(FRAMES):
+            scan = self.folder / "scan.txt"
+            np.savetxt(scan, points(i), fmt="%.9g")
+            x, y, z, w = 0.0, 0.0, math.sin(0.1 * i), math.cos(0.1 * i)
+            a, b, c, d = OPTICAL
+            # The product of both turns.
+            q = (
+                w * a + z * -b,
+                w * b + z * a,
+                w * c + z * d,
+                w * d - z * c,
+            )
+            pose = ",".join(map(repr, (0.2 * i, 0.0, 0.4, *q)))
+            said = self.run_cli(
+                *("map", "insert", out, scan, "--pose", pose, "--create", "0.05", "--overwrite")
+            )
+            self.assertEqual(said.returncode, 0, said.stderr)
+        return out.read_bytes()
+
+    def test_map_is_that_of_the_frames_by_hand(self):
+        expected = self.by_hand()
+        for compression in ("none", "bz2", "lz4"):
+            bag = self.write(compression)
+            for topic in ("/depth/points", "/depth/image_rect"):
+                told = self.build(bag, "--topic", topic)
+                self.assertEqual(told["frames_inserted"], FRAMES)
+                self.assertEqual((told["fixed_frame"], told["topic"]), ("map", topic))
+                with self.subTest(compression=compression, topic=topic):
+                    self.assertEqual((self.folder / "built.ot").read_bytes(), expected)
+
+    def test_refusals_name_the_remedy(self):
+        bag = self.write("none")
+        out = self.folder / "out.ot"
+        truncated = self.folder / "truncated.bag"
+        truncated.write_bytes(bag.read_bytes()[:-1000])
+        for path, arguments, said in (
+            (bag, (), "choose one by topic: /depth/image_rect"),
+            (bag, ("--topic", "/chatter"), "no clouds or depth images on the topic '/chatter'"),
+            (bag, ("--topic", "/depth/points", "--fixed-frame", "odom"), "to 'odom'"),
+            (truncated, ("--topic", "/depth/points"), "truncated"),
+            (pathlib.Path(__file__), (), "is no rosbag"),
+        ):
+            result = self.run_cli("map", "build", path, out, *arguments)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn(said, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertFalse(out.exists())
+        result = self.run_cli("map", "build", bag, out, "--format", "tum")
+        self.assertEqual(result.returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
