@@ -54,10 +54,10 @@ bool is_bag(const BuildOptions& options) {
 void check_options(const BuildOptions& options) {
   if (!is_bag(options)) {
     if (options.format.empty()) throw UsageError("--format is required for a folder");
-    if (options.topic + options.camera_info_topic + options.fixed_frame != "") {
+    if (!(options.topic + options.camera_info_topic + options.fixed_frame).empty()) {
       throw UsageError("--topic, --camera-info and --fixed-frame are of a rosbag");
     }
-  } else if (options.format + options.pose_file != "" || options.up != "z") {
+  } else if (!(options.format + options.pose_file).empty() || options.up != "z") {
     throw UsageError("--format, --poses and --up are of a folder, " + options.recording +
                      " is a file");
   }
