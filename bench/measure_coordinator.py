@@ -5,8 +5,9 @@
         [--workers 1 2 4] [--ranks 2 3 5]
 
 Workers only sleep. Prints a row a run: of processes of this machine, then under mpirun, which runs
-one worker a rank but the first. The coordinator's resident memory is that after a tenth of the run
-and the most that it had.
+one worker a rank but the first. Of the coordinator it tells the resident memory with its first
+records and the most that there was, and the processor time a unit: what it needs of a core however
+busy the machine is.
 """
 import argparse
 import os
@@ -41,10 +42,16 @@ def measure(nbvopt, units, sleep_ms, start, workers):
             command += ["--workers", str(workers)]
         run = subprocess.Popen([*start, nbvopt, *command], stdout=subprocess.PIPE,
                                stderr=subprocess.DEVNULL, text=True)
-        # The coordinator is the first process of nbvopt below the one started.
-        memory_mib = []
+        records = pathlib.Path(folder, "out", "records.jsonl")
+        coordinator = None if start else run.pid
+        memory_mib, busy_s = [], 0.0
         while run.poll() is None:
-            memory_mib.append(coordinator_mib(run.pid, pathlib.Path(nbvopt).name, bool(start)))
+            # Found once: when the first rank has ended, another one would take its place.
+            coordinator = coordinator or first_rank(run.pid)
+            used = use_of(coordinator)
+            if used and records.exists() and records.stat().st_size > 0:
+                memory_mib.append(used[0])
+                busy_s = used[1]
             try:
                 run.wait(0.2)
             except subprocess.TimeoutExpired:
@@ -55,20 +62,31 @@ def measure(nbvopt, units, sleep_ms, start, workers):
     how = f"mpirun, {workers + 1} ranks" if start else "processes"
     rate = int(done) / float(seconds)
     print(f"| {how} | {workers} | {sleep_ms:g} | {int(done):,} | {rate:,.0f} | {busy} % "
-          f"| {memory_mib[len(memory_mib) // 10]:.0f} to {max(memory_mib):.0f} |", flush=True)
+          f"| {memory_mib[0]:.0f} to {max(memory_mib):.0f} "
+          f"| {1e6 * busy_s / int(done):.0f} |", flush=True)
 
 
-def coordinator_mib(pid, name, is_below):
-    """The resident memory of the process, or of its first child of that name, MiB."""
+def first_rank(mpirun):
+    """The process of mpirun's first rank; none where it is not there yet."""
     try:
-        if is_below:
-            children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-            pid = next(c for c in children
-                       if pathlib.Path(f"/proc/{c}/comm").read_text().strip() == name[:15])
+        for child in pathlib.Path(f"/proc/{mpirun}/task/{mpirun}/children").read_text().split():
+            environment = pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0")
+            if b"OMPI_COMM_WORLD_RANK=0" in environment:
+                return int(child)
+    except OSError:
+        pass
+    return None
+
+
+def use_of(pid):
+    """Resident memory, MiB, and processor time, s; none where the process is not there."""
+    try:
         status = pathlib.Path(f"/proc/{pid}/status").read_text()
-        return int(re.search(r"VmRSS:\s+(\d+)", status).group(1)) / 1024
-    except (OSError, StopIteration, AttributeError):
-        return 0.0
+        ticks = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+        return (int(re.search(r"VmRSS:\s+(\d+)", status).group(1)) / 1024,
+                sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK"))
+    except (OSError, AttributeError):
+        return None
 
 
 def main():
@@ -81,8 +99,9 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="*", default=[2, 3, 5])
     arguments = parser.parse_args()
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    print("| engine | workers | ms a unit | units | units/s | workers busy | coordinator, MiB |")
-    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    print("| engine | workers | ms a unit | units | units/s | workers busy | coordinator, MiB "
+          "| its µs a unit |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     for units in arguments.units:
         for sleep_ms in arguments.sleep_ms:
             for workers in arguments.workers:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <iterator>
 #include <map>
 #include <random>
 #include <sstream>
@@ -147,7 +148,7 @@ TEST_F(Reproduce, SurvivesKills) {
   }
 }
 
-TEST_F(Reproduce, PartsMakeTheWhole) {
+TEST_F(Reproduce, PartsAndRanksMakeTheWhole) {
   const Arguments few{"--motion-time", "0.5"};
   const auto with = [&few](const Arguments& more) {
     Arguments all = few;
@@ -170,6 +171,14 @@ TEST_F(Reproduce, PartsMakeTheWhole) {
     EXPECT_EQ(file(std::string("merged/") + table), file(std::string("whole/") + table)) << table;
   }
   EXPECT_EQ(nbvopt_run(arguments("merged", with({"--shard", "3/2"}))).exit_code, 2);
+
+  if (std::string(NBVOPT_MPIRUN).empty()) GTEST_SKIP() << "the rest: built without MPI";
+  Arguments ranks{"--allow-run-as-root", "--oversubscribe", "-n", "3", cli_program()};
+  std::ranges::copy(arguments("ranks", few), std::back_inserter(ranks));
+  const ProcessResult result = run_process(NBVOPT_MPIRUN, ranks);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(records("ranks"), records("whole"));
+  EXPECT_EQ(file("ranks/table.json"), file("whole/table.json"));
 }
 
 TEST_F(Reproduce, AStopKeepsWhatIsDone) {
