@@ -68,6 +68,17 @@ def run_reproduction(client, worlds, out, *, options=(), nbvopt="nbvopt", worker
         lines, [nbvopt, "reproduce", "record", *arguments], on_record)
 
 
+def _give_module(client):
+    """Workers, those to come as well, need not have this module. One that is lost meanwhile breaks
+    the call for all: it is made again, to those that are left."""
+    for is_last in (False, False, True):
+        try:
+            return client.upload_file(__file__)
+        except OSError:
+            if is_last:
+                raise
+
+
 class _Run:
     """Units on their way to workers of Dask and back."""
 
@@ -79,7 +90,7 @@ class _Run:
         self.waiting = {}  # units, by the id of the one that they wait for
         self.tasks = as_completed()
         self.batches = {}  # of tasks, and how often they were submitted
-        client.upload_file(__file__)  # workers, those to come as well, need not have this module
+        _give_module(client)
 
     def run(self, lines, record_command, on_record):
         """How many were recorded."""

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import unittest.mock
 
 try:
     from distributed import Client, LocalCluster
@@ -16,7 +17,7 @@ except ImportError:
     print("OK (skipped=1): python3-distributed is not installed")
     sys.exit(0)
 
-from nbvopt_dask import NbvoptError, run_reproduction, run_study
+from nbvopt_dask import NbvoptError, _give_module, run_reproduction, run_study
 
 NBVOPT = os.environ["NBVOPT_CLI"]
 OFFICE = pathlib.Path(__file__).resolve().parents[2] / "datasets" / "office_partial.ot"
@@ -107,6 +108,15 @@ class DaskTest(unittest.TestCase):
         killer.join()
         self.assertEqual(records(self.folder / "lost"), here)
 
+    def test_gives_its_module_again_when_a_worker_is_lost_meanwhile(self):
+        client = unittest.mock.Mock()
+        client.upload_file.side_effect = [OSError("reset by peer"), None]
+        _give_module(client)
+        self.assertEqual(client.upload_file.call_count, 2)
+        client.upload_file.side_effect = OSError("reset by peer")
+        with self.assertRaises(OSError):
+            _give_module(client)
+
     def kill_a_worker(self):
         worker = next(iter(self.cluster.workers.values()))
         os.kill(worker.process.process.pid, signal.SIGKILL)
@@ -136,9 +146,11 @@ class DaskTest(unittest.TestCase):
 
     def test_a_unit_that_takes_too_long_fails(self):
         spec = self.folder / "slow.yaml"
-        spec.write_text(SPEC % [1] + "unit_timeout_s: 0.000001\n")
-        self.run_on_dask(spec, "slow")
-        self.assertTrue(all("watchdog" in r["failure"] for r in records(self.folder / "slow").values()))
+        forever = SPEC.replace("[20, 60]", "[100000000]")
+        spec.write_text(forever % [1] + "unit_timeout_s: 0.1\n")
+        self.assertGreater(self.run_on_dask(spec, "slow"), 0)
+        for record in records(self.folder / "slow").values():
+            self.assertIn("watchdog", record["failure"])
 
 
 if __name__ == "__main__":
