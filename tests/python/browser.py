@@ -57,9 +57,9 @@ class BrowserTest(unittest.TestCase):
     def open(self, url: str) -> None:
         self.browser.get_log("browser")  # what earlier pages left there
         self.browser.get(url)
-        self.wait_until(lambda: self.run_script("return !!page.isReady && page.pictures > 0"), 60)
+        self.wait_until(lambda: self.run_script("return !!page.isReady && page.pictures > 0"))
 
-    def wait_until(self, is_so, seconds: float = 10) -> None:
+    def wait_until(self, is_so, seconds: float = 60) -> None:
         WebDriverWait(self.browser, seconds, 0.05).until(lambda _: is_so())
 
     def run_script(self, script: str):
