@@ -33,6 +33,10 @@ Json camera_json(const SensorOptions& sensor) {
           {"is_range_along_axis", sensor.range_axis == RangeAxis::z_depth}};
 }
 
+Json mast_json(const MastOptions& mast) {
+  return {{"pan_axis_x_m", mast.pan_axis_x_m}, {"pan_axis_y_m", mast.pan_axis_y_m}};
+}
+
 Json answer_json(const AnswerFile& answer, const Mast& mast) {
   const PlanRequest& request = answer.request;
   const MovingMast moving = moving_mast(request, mast);

@@ -13,6 +13,9 @@ namespace nbvopt {
 /// What a camera sees.
 Json camera_json(const SensorOptions& sensor);
 
+/// Where a mast's pan axis stands on the base.
+Json mast_json(const MastOptions& mast);
+
 /// The view that the robot has, and the chosen one.
 Json answer_json(const AnswerFile& answer, const Mast& mast);
 

@@ -60,6 +60,7 @@ MapPage::MapPage(const std::string& name, const Lattice& lattice, bool carries_u
 
 void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
   data_["camera"] = camera_json(planner.robot().sensor);
+  data_["mast"] = mast_json(planner.robot().mast);
   data_["answer"] = answer_json(answer, planner.mast());
   add_landscape(answer, planner);
   add_voxel_gains(T_map_sensor(answer.request, planner.mast(), answer.joints), planner);
@@ -107,6 +108,7 @@ void MapPage::add_episode(const std::vector<EpisodeCapture>& captures, const Vox
     }
   }
   data_["camera"] = camera_json(robot.sensor);
+  data_["mast"] = mast_json(robot.mast);
   data_["episode"] = {{"captures", captures.size()}};
   blocks_.push_back({"captures", packed_numbers(numbers)});
   const auto first = first_captures(grid, robot.sensor, poses_T_map_sensor);

@@ -96,6 +96,25 @@ class ViewTest(BrowserTest):
         self.assertGreater(self.look()["drawn"], before["drawn"])  # such a view is outlined
         self.assert_quiet()
 
+    def test_draws_the_mast_where_its_pan_axis_stands(self):
+        robot = pathlib.Path(self.folder.name, "robot.yaml")
+        robot.write_text("mast: {pan_axis_x_m: 0.5, pan_axis_y_m: -0.25}\n", encoding="utf-8")
+        answer, page = f"{self.folder.name}/beside.json", f"{self.folder.name}/beside.html"
+        run_cli("query", OFFICE, *QUERY, "--robot", str(robot), "--json-out", answer)
+        run_cli("view", OFFICE, "--answer", answer, "--robot", str(robot), "-o", page)
+        self.open(f"file://{page}")
+        # The mast's foot and the camera of this mast, which has no offset, stand above one another.
+        beside_m = self.run_script("""
+          const {current} = page.data.answer;
+          const foot = views.mastOn(current.T_map_base).elements;
+          return Math.hypot(...[12, 13].map(i => foot[i] - current.T_map_sensor[i]));""")
+        self.assertLess(beside_m, 1e-9)
+        before = self.look()
+        landscape = self.browser.find_element(By.ID, "landscape-map")
+        ActionChains(self.browser).move_to_element_with_offset(landscape, 60, 10).perform()
+        self.assertGreater(self.look()["drawn"], before["drawn"])  # such a view is outlined
+        self.assert_quiet()
+
     def test_goes_through_an_episode(self):
         captures = [{"time_s": 0.5 * i, "base": [1.9, 2.6, 0, 1.57], "pan": 0.7 * i, "tilt": 0,
                      "height": 0.4, "information": 100 * (i + 1), "predicted_gain": None,

@@ -20,7 +20,10 @@ std::string line_of(const Json& json) {
 }  // namespace
 
 LivePage::LivePage(LiveSources sources) : sources_(std::move(sources)) {
-  const Json data{{"live", true}, {"camera", camera_json(sources_.published()->robot().sensor)}};
+  const std::shared_ptr<const ViewPlanner> planner = sources_.published();
+  const Robot& robot = planner->robot();
+  const Json data{
+      {"live", true}, {"camera", camera_json(robot.sensor)}, {"mast", mast_json(robot.mast)}};
   html_ = std::make_shared<const std::string>(page_html(sources_.title, data, {}, PageKind::live));
 }
 

@@ -36,10 +36,10 @@ gains.voxels = async () => {
   return {mesh, tell};
 };
 
-/** T_map_sensor of joints on the base of a view, column by column, if the mast is as is usual. */
+/** T_map_sensor of joints on the base of a view, column by column, where the camera has no offset. */
 const cameraMatrix = (view, pan_rad, tilt_rad, height_m) => {
   const optical = new THREE.Matrix4().set(0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-  return new THREE.Matrix4().fromArray(view.T_map_base)
+  return views.mastOn(view.T_map_base)
     .multiply(new THREE.Matrix4().makeTranslation(0, 0, height_m))
     .multiply(new THREE.Matrix4().makeRotationZ(pan_rad))
     .multiply(new THREE.Matrix4().makeRotationY(-tilt_rad))

@@ -77,6 +77,13 @@ const rod = (from, to, colour) => {
   return [mesh];
 };
 
+/** T_map_mast of a base: where the pan axis stands, which may be beside the base's origin. */
+views.mastOn = T_map_base => {
+  const {pan_axis_x_m, pan_axis_y_m} = page.data.mast;
+  return new THREE.Matrix4().fromArray(T_map_base)
+    .multiply(new THREE.Matrix4().makeTranslation(pan_axis_x_m, pan_axis_y_m, 0));
+};
+
 /** The base as a disc with its heading, and the mast up to the camera. */
 views.robot = (view, colour) => {
   const T_map_base = new THREE.Matrix4().fromArray(view.T_map_base);
@@ -91,8 +98,9 @@ views.robot = (view, colour) => {
   const base = new THREE.Group();
   base.add(disc, heading);
   views.place(base, new THREE.Matrix4().makeTranslation(0, 0, 0.01).premultiply(T_map_base).elements);
-  const foot = new THREE.Vector3().setFromMatrixPosition(T_map_base);
-  const top = new THREE.Vector3(0, 0, view.joints.height_m).applyMatrix4(T_map_base);
+  const T_map_mast = views.mastOn(view.T_map_base);
+  const foot = new THREE.Vector3().setFromMatrixPosition(T_map_mast);
+  const top = new THREE.Vector3(0, 0, view.joints.height_m).applyMatrix4(T_map_mast);
   group.add(base, ...rod(foot, top, colour), ...rod(top, camera_m, colour));
   const head = new THREE.Mesh(new THREE.BoxBufferGeometry(0.1, 0.05, 0.05),
     new THREE.MeshBasicMaterial({color: colour}));
