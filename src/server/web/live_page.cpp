@@ -19,7 +19,8 @@ std::string line_of(const Json& json) {
 
 }  // namespace
 
-LivePage::LivePage(LiveSources sources) : sources_(std::move(sources)) {
+LivePage::LivePage(LiveSources sources, std::chrono::milliseconds least_pause)
+    : sources_(std::move(sources)), least_pause_(least_pause) {
   const std::shared_ptr<const ViewPlanner> planner = sources_.published();
   const Robot& robot = planner->robot();
   const Json data{
@@ -46,7 +47,6 @@ std::string LivePage::state() const {
 }
 
 std::shared_ptr<const std::string> LivePage::map() {
-  constexpr std::chrono::milliseconds kLeastPause{500};
   constexpr int kShare = 4;  // of the time that it took
   const std::scoped_lock lock(making_);
   const std::shared_ptr<const VoxelGrid> grid = sources_.published()->grid();
@@ -55,7 +55,7 @@ std::shared_ptr<const std::string> LivePage::map() {
   map_ = std::make_shared<const std::string>(made_map(*grid));
   made_version_ = grid->version();
   const Clock::time_point end = Clock::now();
-  next_ = end + std::max<Clock::duration>(kLeastPause, kShare * (end - start));
+  next_ = end + std::max<Clock::duration>(least_pause_, kShare * (end - start));
   return map_;
 }
 

@@ -31,7 +31,9 @@ struct LiveVersion {
 /// Safe to share between threads.
 class LivePage {
  public:
-  explicit LivePage(LiveSources sources);
+  /// Maps are made at least `least_pause` apart.
+  explicit LivePage(LiveSources sources,
+                    std::chrono::milliseconds least_pause = std::chrono::milliseconds(500));
 
   /// The page itself, which asks for the rest.
   const std::shared_ptr<const std::string>& html() const { return html_; }
@@ -54,6 +56,7 @@ class LivePage {
   std::string made_map(const VoxelGrid& grid) const;
 
   const LiveSources sources_;
+  const std::chrono::milliseconds least_pause_;
   std::shared_ptr<const std::string> html_;
 
   std::mutex making_;  ///< of what follows; held while a map is made

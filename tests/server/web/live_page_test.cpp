@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "core/json.hpp"
 #include "server/web/event_stream.hpp"
 #include "server/web/live_world.hpp"
+#include "support/wait_until.hpp"
 
 namespace nbvopt {
 namespace {
@@ -54,22 +53,30 @@ TEST_F(LivePageTest, KeepsTextsOnOneLine) {
 }
 
 TEST_F(LivePageTest, MakesAMapOnceForAllWhoAsk) {
-  const auto first = page.map();
-  EXPECT_EQ(page.map(), first);
+  LivePage seldom(world.sources(), std::chrono::hours(1));
+  const auto first = seldom.map();
+  EXPECT_EQ(seldom.map(), first);
   const Json json = parse_json(*first, "map");
   EXPECT_EQ(json["id"], "7-1");
   EXPECT_EQ(json["map"]["occupied_voxels"], 200);
   EXPECT_NE(json["blocks"]["seen"], "");
   world.scan();
-  EXPECT_EQ(page.map(), first);  // it is too early for another
-  std::this_thread::sleep_for(std::chrono::milliseconds(550));
-  EXPECT_EQ(parse_json(*page.map(), "map")["id"], "7-2");
+  EXPECT_EQ(seldom.map(), first);  // it is too early for another
+}
+
+TEST_F(LivePageTest, MakesAnotherMapWhenThereIsANewerOne) {
+  LivePage often(world.sources(), std::chrono::milliseconds(0));
+  EXPECT_EQ(parse_json(*often.map(), "map")["id"], "7-1");
+  world.scan();
+  EXPECT_TRUE(test::wait_until([&] { return parse_json(*often.map(), "map")["id"] == "7-2"; }));
 }
 
 class EventStreamTest : public LivePageTest {
  protected:
   /// What a turn sends; empty for nothing.
-  std::string turn(bool has_taken_all = true) {
+  std::string turn(bool has_taken_all = true) { return turn_of(stream, has_taken_all); }
+
+  std::string turn_of(EventStream& stream, bool has_taken_all) {
     std::string sent;
     is_going_on = stream.turn(has_taken_all, [&](const std::string& event) {
       sent = event;
@@ -79,7 +86,7 @@ class EventStreamTest : public LivePageTest {
   }
 
   WebLog log;
-  EventStream stream{page, log, std::chrono::milliseconds(50)};
+  EventStream stream{page, log, std::chrono::hours(1)};
   bool is_going_on = true;
 };
 
@@ -110,8 +117,8 @@ TEST_F(EventStreamTest, QueuesNothingForWhoDoesNotReadAndLetsItGo) {
   EXPECT_TRUE(is_going_on);
   world.plan("newest");
   EXPECT_THAT(turn(), HasSubstr("newest"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
-  EXPECT_EQ(turn(false), "");
+  EventStream impatient(page, log, std::chrono::milliseconds(0));
+  EXPECT_EQ(turn_of(impatient, false), "");
   EXPECT_FALSE(is_going_on);
   EXPECT_EQ(log.waits, 2U);
 }
