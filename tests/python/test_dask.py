@@ -148,8 +148,10 @@ class DaskTest(unittest.TestCase):
         spec = self.folder / "slow.yaml"
         forever = SPEC.replace("[20, 60]", "[100000000]")
         spec.write_text(forever % [1] + "unit_timeout_s: 0.1\n")
-        self.assertGreater(self.run_on_dask(spec, "slow"), 0)
-        for record in records(self.folder / "slow").values():
+        self.run_on_dask(spec, "slow")
+        searches = [r for r in records(self.folder / "slow").values() if r["search"] == "random"]
+        self.assertEqual(len(searches), 3)
+        for record in searches:
             self.assertIn("watchdog", record["failure"])
 
 
