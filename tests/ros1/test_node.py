@@ -100,7 +100,8 @@ class NodeTest(unittest.TestCase):
     def setUpClass(cls):
         cls.ros = RosSystem()
         cls.ros.load("octomap_server", CONFIG)
-        cls.node = cls.ros.start(NODE, "_publish_free_space:=true", "_publish_period:=0.1")
+        shown = ("_publish_free_space:=true", "_publish_period:=0.1", "_occupancy_max_z:=0.5")
+        cls.node = cls.ros.start(NODE, *shown)
         rospy.init_node("client", disable_signals=True)
         cls.tf = tf2_ros.Buffer()
         tf2_ros.TransformListener(cls.tf)
@@ -274,6 +275,7 @@ class NodeTest(unittest.TestCase):
         self.assertAlmostEqual(voxels.scale.x, 0.1)
         self.assertEqual(len(voxels.colors), points)
         self.assertEqual(cubes.markers[0].action, voxels.DELETE)
+        self.assertLess(max(point.z for point in voxels.points), 0.5, "occupancy_max_z")
         reds = {round(colour.r, 2) for colour in voxels.colors}
         self.assertGreater(len(reds), 3)  # surely and less surely seen voxels
         centres = rospy.wait_for_message("octomap_point_cloud_centers", PointCloud2, timeout=30)

@@ -48,6 +48,10 @@ void set_actions(visualization_msgs::MarkerArray& array) {
   }
 }
 
+bool is_in(const HeightBand& band, const Eigen::Vector3d& centre_m) {
+  return centre_m.z() >= band.min_m && centre_m.z() <= band.max_m;
+}
+
 }  // namespace
 
 octomap_msgs::Octomap octomap_message(const std::string& file, bool is_binary,
@@ -63,11 +67,13 @@ octomap_msgs::Octomap octomap_message(const std::string& file, bool is_binary,
   return message;
 }
 
-visualization_msgs::MarkerArray occupied_cells(const UncertaintyMap& map) {
+visualization_msgs::MarkerArray occupied_cells(const UncertaintyMap& map, const HeightBand& band) {
   visualization_msgs::MarkerArray array = cube_lists(map);
   visualization_msgs::Marker& voxels = array.markers.back();
   for_each_surface_voxel(detail::MapAccess::tree(map), [&](VoxelKey voxel, const Node& leaf) {
-    voxels.points.push_back(point_message(map.lattice().centre_m(voxel)));
+    const Eigen::Vector3d centre_m = map.lattice().centre_m(voxel);
+    if (!is_in(band, centre_m)) return true;
+    voxels.points.push_back(point_message(centre_m));
     voxels.colors.push_back(colour_message(uncertainty_colour(leaf.uncertainty())));
     return true;
   });
@@ -90,7 +96,7 @@ visualization_msgs::MarkerArray free_cells(const UncertaintyMap& map) {
   return array;
 }
 
-sensor_msgs::PointCloud2 voxel_centres(const UncertaintyMap& map) {
+sensor_msgs::PointCloud2 voxel_centres(const UncertaintyMap& map, const HeightBand& band) {
   sensor_msgs::PointCloud2 cloud;
   for (const char* name : {"x", "y", "z", "rgb"}) {
     sensor_msgs::PointField field;
@@ -106,9 +112,9 @@ sensor_msgs::PointCloud2 voxel_centres(const UncertaintyMap& map) {
     cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof(number));
   };
   for_each_surface_voxel(detail::MapAccess::tree(map), [&](VoxelKey voxel, const Node& leaf) {
-    for (const double coordinate_m : map.lattice().centre_m(voxel)) {
-      append(static_cast<float>(coordinate_m));
-    }
+    const Eigen::Vector3d centre_m = map.lattice().centre_m(voxel);
+    if (!is_in(band, centre_m)) return true;
+    for (const double coordinate_m : centre_m) append(static_cast<float>(coordinate_m));
     const auto [red, green, blue] = uncertainty_colour(leaf.uncertainty());
     append(std::uint32_t{red} << 16 | std::uint32_t{green} << 8 | std::uint32_t{blue});
     ++cloud.width;

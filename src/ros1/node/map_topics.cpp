@@ -44,15 +44,19 @@ MapTopics::MapTopics(ros::NodeHandle& node, const NodeParameters& parameters, co
                              map.resolution_m());
     });
   }
-  add<visualization_msgs::MarkerArray>(node, "occupied_cells_vis_array", occupied_cells);
+  const HeightBand band = parameters.shown_band;
+  add<visualization_msgs::MarkerArray>(
+      node, "occupied_cells_vis_array",
+      [band](const UncertaintyMap& map) { return occupied_cells(map, band); });
   if (parameters.publishes_free_space) {
     add<visualization_msgs::MarkerArray>(node, "free_cells_vis_array", free_cells);
   }
-  add<sensor_msgs::PointCloud2>(node, "octomap_point_cloud_centers", voxel_centres);
-  add<nav_msgs::OccupancyGrid>(node, "projected_map",
-                               [band = parameters.projected_band](const UncertaintyMap& map) {
-                                 return projected_map(map, band);
-                               });
+  add<sensor_msgs::PointCloud2>(
+      node, "octomap_point_cloud_centers",
+      [band](const UncertaintyMap& map) { return voxel_centres(map, band); });
+  add<nav_msgs::OccupancyGrid>(node, "projected_map", [band](const UncertaintyMap& map) {
+    return projected_map(map, band);
+  });
   timer_ = node.createWallTimer(ros::WallDuration(parameters.publish_period_s),
                                 [this](const ros::WallTimerEvent&) { publish(); });
 }

@@ -210,8 +210,8 @@ NodeParameters read_parameters(const ros::NodeHandle& ros_node) {
   parameters.read_not_negative("path_speed", node.path_speed_m_s);
   parameters.read_positive("publish_period", node.publish_period_s);
   parameters.read("publish_free_space", node.publishes_free_space);
-  parameters.read_number("occupancy_min_z", node.projected_band.min_m);
-  parameters.read_number("occupancy_max_z", node.projected_band.max_m);
+  parameters.read_number("occupancy_min_z", node.shown_band.min_m);
+  parameters.read_number("occupancy_max_z", node.shown_band.max_m);
   warn_of_sensor_model(parameters);
   return node;
 }

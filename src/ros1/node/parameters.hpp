@@ -30,7 +30,7 @@ struct NodeParameters {
   double path_speed_m_s = 0.0;    ///< along a path whose poses tell no times; 0: it is not heeded
   double publish_period_s = 1.0;  ///< of the map
   bool publishes_free_space = false;
-  HeightBand projected_band;  ///< of projected_map
+  HeightBand shown_band;  ///< of cubes, their centres and projected_map
 };
 
 /// Reads the private parameters. Throws InputError that names the parameter and its value.
