@@ -4,7 +4,7 @@
 #
 #     examples/demo_ros.sh BUILD OUT [SECONDS [roslaunch's arguments]]
 #
-# With `rviz:=true` the map is to be seen in RViz, where that is installed.
+# With `rviz:=true` the map is to be seen in RViz, where that is installed, without the ceiling.
 set -euo pipefail
 build=$(realpath "$1") out=$(realpath "$2") seconds=${3:-60}
 root=$(realpath "$(dirname "$0")/..")
@@ -18,7 +18,7 @@ drive=$out/office_drive.csv
 "$build/cli/nbvopt" simulate "$root/datasets/office.world" --start 0.62,0.71,0 \
   --duration-max "$seconds" --explore-only --trajectory-out "$drive"
 roslaunch -p "${ROS_MASTER_URI##*:}" nbvopt simulation.launch \
-  world:="$root/datasets/office.world" trajectory:="$drive" "$@" >"$out/demo_ros.log" 2>&1 &
+  world:="$root/datasets/office.world" trajectory:="$drive" occupancy_max_z:=2.4 "$@" >"$out/demo_ros.log" 2>&1 &
 launch=$!
 trap 'kill -INT $launch; wait $launch || true' EXIT
 /usr/bin/python3 "$root/examples/look_around.py" "$seconds"
