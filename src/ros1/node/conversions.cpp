@@ -55,6 +55,20 @@ Transform look_up(const tf2_ros::Buffer& tf, const std::string& to, const std::s
   return transform_of(tf.lookupTransform(to, from, time, ros::Duration(kTimeout_s)).transform);
 }
 
+sensor_msgs::PointCloud2 cloud_of_floats(std::initializer_list<const char*> fields) {
+  sensor_msgs::PointCloud2 cloud;
+  for (const char* name : fields) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = cloud.point_step;
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += sizeof(float);
+  }
+  return cloud;
+}
+
 Scan scan_of(const sensor_msgs::PointCloud2& message) {
   PointCloudMessage cloud{.height = message.height,
                           .width = message.width,

@@ -7,6 +7,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/buffer.h>
 
+#include <initializer_list>
 #include <string>
 
 #include "nbvopt/core/transform.hpp"
@@ -27,6 +28,9 @@ Eigen::Vector3d point_of(const geometry_msgs::Point& message);
 /// tf2::TransformException when tf does not know it.
 Transform look_up(const tf2_ros::Buffer& tf, const std::string& to, const std::string& from,
                   const ros::Time& time = ros::Time(0));
+
+/// A cloud without points, each of which has these fields, floats one after the other.
+sensor_msgs::PointCloud2 cloud_of_floats(std::initializer_list<const char*> fields);
 
 /// In the cloud's frame. Throws InputError as scan_of(PointCloudMessage) does.
 Scan scan_of(const sensor_msgs::PointCloud2& message);

@@ -97,16 +97,7 @@ visualization_msgs::MarkerArray free_cells(const UncertaintyMap& map) {
 }
 
 sensor_msgs::PointCloud2 voxel_centres(const UncertaintyMap& map, const HeightBand& band) {
-  sensor_msgs::PointCloud2 cloud;
-  for (const char* name : {"x", "y", "z", "rgb"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = cloud.point_step;
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += sizeof(float);
-  }
+  sensor_msgs::PointCloud2 cloud = cloud_of_floats({"x", "y", "z", "rgb"});
   const auto append = [&](const auto& number) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(&number);
     cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof(number));

@@ -16,16 +16,7 @@ constexpr JointPosition kStart{.pan_rad = 0.0, .tilt_rad = 0.0, .height_m = 0.4}
 
 /// A driver has no point for what is too far: ours puts one beyond the range, which clears the ray.
 sensor_msgs::PointCloud2 cloud_message(const Scan& scan, double range_max_m) {
-  sensor_msgs::PointCloud2 cloud;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = cloud.point_step;
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += sizeof(float);
-  }
+  sensor_msgs::PointCloud2 cloud = cloud_of_floats({"x", "y", "z"});
   std::vector<Eigen::Vector3f> points = scan.points_m;
   for (const Eigen::Vector3f& direction : scan.no_returns) {
     points.emplace_back(direction * static_cast<float>(2.0 * range_max_m));
