@@ -119,7 +119,20 @@ void set_figures(ResultRow& row, const Episodes& episodes) {
   row.information_per_s = *row.information / *row.duration_s;
 }
 
-void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes& all_still) {
+double mean_information_at(double time_s, const Episodes& episodes) {
+  double sum = 0.0;
+  for (const auto& [origin, episode] : episodes) sum += episode.summary.growth.at(time_s);
+  return sum / static_cast<double>(episodes.size());
+}
+
+/// The paper's test of that kind takes so long, and its still camera in the plane.
+struct PapersDurations {
+  double test_s;
+  double still_s;
+};
+
+void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes& all_still,
+                    const PapersDurations& papers) {
   const Episodes episodes = shared_with(all_episodes, all_still);
   const Episodes still = shared_with(all_still, all_episodes);
   if (episodes.empty()) return;
@@ -129,6 +142,11 @@ void set_comparison(ResultRow& row, const Episodes& all_episodes, const Episodes
   row.voxels_percent = percent(voxels);
   row.gain = mean(episodes, information) - mean(still, information);
   row.gain_percent = percent(information);
+  const double still_then = mean_information_at(papers.still_s, still);
+  if (still_then > 0.0) {
+    row.gain_percent_in_papers_time =
+        100.0 * (mean_information_at(papers.test_s, episodes) / still_then - 1.0);
+  }
   row.as_paper_counts_voxels_percent = percent(voxels_as_paper_counts);
   row.as_paper_counts_gain_percent = percent(information_as_paper_counts);
 }
@@ -207,13 +225,17 @@ ResultRow spatial_row(const PaperEnvironment& paper, const ExperimentEnvironment
     return row;
   }
   set_figures(row, episodes);
-  set_comparison(row, episodes, index.episodes(environment, kSpatialReference));
+  const double planar_s = paper.planar.duration_s;
+  set_comparison(
+      row, episodes, index.episodes(environment, kSpatialReference),
+      {.test_s = test.is_papers ? paper.spatial.duration_s : planar_s, .still_s = planar_s});
   return row;
 }
 
 /// Tests that were left out have no rows.
 void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
                  const ExperimentEnvironment& environment, const ResultIndex& index) {
+  const double planar_s = paper.planar.duration_s;
   for (const EpisodeSetting& setting : episode_settings()) {
     if (!index.has_test(setting, ExplorerKind::plane)) continue;
     ResultRow row;
@@ -232,7 +254,8 @@ void append_rows(std::vector<ResultRow>& rows, const PaperEnvironment& paper,
       set_regret(row, episodes, index.episodes(environment, {"oracle", setting.motion_time_s}));
       if (setting.mode != "static") {
         set_comparison(row, episodes,
-                       index.episodes(environment, {"static", setting.motion_time_s}));
+                       index.episodes(environment, {"static", setting.motion_time_s}),
+                       {.test_s = planar_s, .still_s = planar_s});
       }
     }
     rows.push_back(std::move(row));

@@ -33,6 +33,8 @@ struct ResultRow : RowLabel {
   std::optional<double> ghosts;  ///< where people walk
   std::optional<double> gain;
   std::optional<double> gain_percent;
+  /// The same, each drive only for as long as the paper's test took, if it lasts so long.
+  std::optional<double> gain_percent_in_papers_time;
   std::optional<double> mean_information;  ///< over the drive
   /// Until the map knew that share of what the best of all episodes on this drive knew at its end;
   /// none where a start never came so far.

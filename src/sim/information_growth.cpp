@@ -1,6 +1,7 @@
 #include "nbvopt/sim/information_growth.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace nbvopt {
 
@@ -9,6 +10,11 @@ std::optional<double> InformationGrowth::time_to_s(double information) const {
       points_, [&](const Point& point) { return point.information >= information; });
   if (reached == points_.end()) return std::nullopt;
   return reached->time_s;
+}
+
+double InformationGrowth::at(double time_s) const {
+  const auto later = std::ranges::upper_bound(points_, time_s, {}, &Point::time_s);
+  return later == points_.begin() ? 0.0 : std::prev(later)->information;
 }
 
 double InformationGrowth::mean_until(double duration_s) const {

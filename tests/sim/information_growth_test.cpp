@@ -23,6 +23,15 @@ TEST(InformationGrowth, TellsWhenSoMuchWasThere) {
   EXPECT_FALSE(InformationGrowth().time_to_s(1.0));
 }
 
+TEST(InformationGrowth, StaysFromOneCaptureToTheNext) {
+  EXPECT_EQ(steps().at(-0.1), 0.0);
+  EXPECT_EQ(steps().at(0.0), 10.0);
+  EXPECT_EQ(steps().at(2.9), 30.0);
+  EXPECT_EQ(steps().at(3.0), 40.0);
+  EXPECT_EQ(steps().at(100.0), 40.0);
+  EXPECT_EQ(InformationGrowth().at(1.0), 0.0);
+}
+
 TEST(InformationGrowth, AveragesOverTime) {
   EXPECT_DOUBLE_EQ(steps().mean_until(4.0), (10.0 + 2 * 30.0 + 40.0) / 4.0);
   EXPECT_DOUBLE_EQ(steps().mean_until(2.0), (10.0 + 30.0) / 2.0) << "what comes later is cut off";

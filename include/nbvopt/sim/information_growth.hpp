@@ -25,6 +25,9 @@ class InformationGrowth {
   /// The time when there was first so much; none where that never was.
   std::optional<double> time_to_s(double information) const;
 
+  /// Information at that time: 0 before the first capture, the last one's after it.
+  double at(double time_s) const;
+
   /// The area below the curve, from 0 s, divided by the duration: 0 where that is 0.
   double mean_until(double duration_s) const;
 
