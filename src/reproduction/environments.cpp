@@ -67,7 +67,7 @@ std::span<const ExperimentEnvironment> experiment_environments() {
        "willowgarage/worlds/willowgarage_closed.world",
        10.0,
        1615.0,  // as long as the paper's: to see it all takes our robot 3,800 s
-       {{0.0, 0.0, 0.0}}},
+       {{0.0, 0.0, 0.0}, {22.5, -13.8, 3.14}, {-13.5, 4.0, 1.57}}},
   };
   return kEnvironments;
 }

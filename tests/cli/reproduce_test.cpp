@@ -228,8 +228,7 @@ TEST_F(Reproduce, PlansThePapersExperimentByDefault) {
   ExperimentOptions all;
   all.worlds_folder = folder.path() / "worlds";
   const auto units = experiment_units(all);
-  EXPECT_EQ(units.size(), 13U * 26U)
-      << "three starts each, one in willowgarage; the bookstore is not there";
+  EXPECT_EQ(units.size(), 15U * 26U) << "three starts each; the bookstore is not there";
   for (const Unit& unit : units) EXPECT_EQ(unit.name.find(' '), std::string::npos);
 }
 

@@ -28,7 +28,7 @@ class ReproductionInParts : public testing::Test {
  protected:
   ReproductionInParts() { write_room_worlds(folder.path() / "worlds"); }
 
-  /// Three starts, by all explorers: fifteen drives.
+  /// Four starts, by all explorers: twenty drives.
   ExperimentOptions options(const std::string& out, const experiment::Shard& shard = {}) const {
     ExperimentOptions options;
     options.worlds_folder = folder.path() / "worlds";
@@ -128,7 +128,7 @@ TEST_F(ReproductionInParts, OtherDrivesAndContradictionsAreRefused) {
 }
 
 TEST_F(ReproductionInParts, AnEngineLearnsFilesAndOrder) {
-  const std::vector<Json> lines = listed(options("out", {0, 15}));
+  const std::vector<Json> lines = listed(options("out", {0, 20}));
   ASSERT_EQ(lines.size(), 1 + episode_settings().size());
   const Json& drive = lines.front();
   EXPECT_FALSE(drive.at("engine").contains("after"));
@@ -145,7 +145,7 @@ TEST_F(ReproductionInParts, AnEngineLearnsFilesAndOrder) {
 }
 
 TEST_F(ReproductionInParts, AnEnginesAnswersAreKept) {
-  const ExperimentOptions experiment = options("out", {0, 15});
+  const ExperimentOptions experiment = options("out", {0, 20});
   const std::vector<Json> lines = listed(experiment);
   const std::string trajectory = lines.front().at("trajectory");
   std::ofstream(trajectory) << "what a worker elsewhere wrote";
