@@ -24,7 +24,6 @@
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/planner/robot.hpp"
 #include "nbvopt/v1/planner.grpc.pb.h"
-#include "protocol/messages.hpp"
 #include "support/paths.hpp"
 #include "support/server_process.hpp"
 #include "support/temporary_folder.hpp"

@@ -7,7 +7,9 @@
 
 #include "core/text_file.hpp"
 #include "nbvopt/v1/planner.grpc.pb.h"
-#include "protocol/messages.hpp"
+#include "protocol/map_messages.hpp"
+#include "protocol/plan_messages.hpp"
+#include "protocol/pose_messages.hpp"
 #include "sensor/sensor_names.hpp"
 
 namespace nbvopt {

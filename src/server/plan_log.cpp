@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "protocol/messages.hpp"
+#include "protocol/plan_messages.hpp"
 
 namespace nbvopt {
 

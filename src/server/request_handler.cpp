@@ -11,7 +11,9 @@
 #include "nbvopt/core/version.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "protocol/limit_error.hpp"
-#include "protocol/messages.hpp"
+#include "protocol/map_messages.hpp"
+#include "protocol/plan_messages.hpp"
+#include "protocol/pose_messages.hpp"
 #include "server/call_status.hpp"
 #include "server/versions.hpp"
 

@@ -1,4 +1,6 @@
-#include "protocol/messages.hpp"
+#include "protocol/map_messages.hpp"
+#include "protocol/plan_messages.hpp"
+#include "protocol/pose_messages.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "protocol/messages.hpp"
+#include "protocol/map_messages.hpp"
+#include "protocol/plan_messages.hpp"
+#include "protocol/pose_messages.hpp"
 #include "server/call_log.hpp"
 #include "server/request_handler.hpp"
 #include "server/server_world.hpp"

@@ -6,7 +6,7 @@
 #include "nbvopt/client/planner_client.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "nbvopt/v1/planner.grpc.pb.h"
-#include "protocol/messages.hpp"
+#include "protocol/plan_messages.hpp"
 #include "server/server.hpp"
 #include "server/server_world.hpp"
 #include "support/temporary_folder.hpp"

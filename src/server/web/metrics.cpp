@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/messages.hpp"
+#include "protocol/plan_messages.hpp"
 
 namespace nbvopt {
 namespace {

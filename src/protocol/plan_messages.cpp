@@ -1,46 +1,18 @@
-#include "protocol/messages.hpp"
+#include "protocol/plan_messages.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <optional>
-#include <utility>
 
 #include "core/enum_names.hpp"
-#include "core/field_check.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/gain/hazard_file.hpp"
-#include "nbvopt/map/depth_image.hpp"
-#include "protocol/limit_error.hpp"
+#include "protocol/needed_field.hpp"
+#include "protocol/pose_messages.hpp"
 #include "sensor/sensor_names.hpp"
 
 namespace nbvopt {
 namespace {
-
-/// A needed number, checked. `is_set` and `value` are the field's.
-double needed(bool is_set, double value, const std::string& field) {
-  if (!is_set) throw InputError(field + " is not set");
-  check_field(true, field, value, "finite");
-  return value;
-}
-
-/// Rotations as far as rounding of 32-bit numbers goes; a projection would change the last bit.
-Eigen::Matrix3d rotation_from(const v1::Pose& pose, const std::string& field) {
-  constexpr double kRounding = 1e-5;
-  if (pose.rotation_size() != 9) {
-    throw InputError(field + ".rotation has " + std::to_string(pose.rotation_size()) +
-                     " numbers, give 9");
-  }
-  const Eigen::Matrix3d rotation =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.rotation().data());
-  const double deviation =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation < kRounding) || rotation.determinant() < 0.0) {
-    throw InputError(field + ".rotation is not a rotation matrix");
-  }
-  return rotation;
-}
 
 constexpr auto kStatuses = std::to_array<EnumName<PlanStatus, v1::PlanStatus>>({
     {PlanStatus::optimal_within_tolerance, v1::PLAN_STATUS_OPTIMAL_WITHIN_TOLERANCE},
@@ -50,13 +22,6 @@ constexpr auto kStatuses = std::to_array<EnumName<PlanStatus, v1::PlanStatus>>({
     {PlanStatus::no_gain_in_reach, v1::PLAN_STATUS_NO_GAIN_IN_REACH},
     {PlanStatus::cancelled, v1::PLAN_STATUS_CANCELLED},
     {PlanStatus::certified, v1::PLAN_STATUS_CERTIFIED},
-});
-
-constexpr auto kFormats = std::to_array<EnumName<MapFormat, v1::MapFormat>>({
-    {MapFormat::uncertainty_ot, v1::MAP_FORMAT_UNCERTAINTY_OT},
-    {MapFormat::bt, v1::MAP_FORMAT_BT},
-    {MapFormat::colour_ot, v1::MAP_FORMAT_COLOUR_OT},
-    {MapFormat::colour_ply, v1::MAP_FORMAT_COLOUR_PLY},
 });
 
 CertifyOptions from_message(const v1::CertifyOptions& message) {
@@ -92,134 +57,11 @@ v1::Certificate to_message(const Certificate& certificate) {
   return message;
 }
 
-constexpr std::size_t kPointBytes = 3 * sizeof(float);
-
-void check_points(std::uint64_t points, std::uint64_t max_points) {
-  if (points <= max_points) return;
-  throw LimitError("the scan has " + std::to_string(points) + " points, the limit is " +
-                   std::to_string(max_points) + " (max_scan_points)");
-}
-
-/// Points as a message packs them: the machine's own numbers, which are little-endian.
-std::vector<Eigen::Vector3f> unpacked_points(const std::string& bytes, const char* field) {
-  if (bytes.size() % kPointBytes != 0) {
-    throw InputError(std::string(field) + " has " + std::to_string(bytes.size()) +
-                     " bytes, not a multiple of 12: the scan is cut short");
-  }
-  std::vector<Eigen::Vector3f> points(bytes.size() / kPointBytes);
-  if (!points.empty()) std::memcpy(points.front().data(), bytes.data(), bytes.size());
-  return points;
-}
-
-std::string packed_points(const std::vector<Eigen::Vector3f>& points) {
-  if (points.empty()) return {};
-  return {reinterpret_cast<const char*>(points.front().data()), points.size() * kPointBytes};
-}
-
-Scan scan_of(const v1::PointCloud& cloud, std::uint64_t max_points) {
-  check_points((cloud.xyz_m().size() + cloud.no_return_xyz().size()) / kPointBytes, max_points);
-  Scan scan{.points_m = unpacked_points(cloud.xyz_m(), "points.xyz_m"),
-            .colours = {},
-            .no_returns = unpacked_points(cloud.no_return_xyz(), "points.no_return_xyz")};
-  if (cloud.rgb().empty()) return scan;
-  if (cloud.rgb().size() != 3 * scan.points_m.size()) {
-    throw InputError("points.rgb has " + std::to_string(cloud.rgb().size()) +
-                     " bytes, give 3 a point (" + std::to_string(3 * scan.points_m.size()) +
-                     ") or none");
-  }
-  scan.colours.resize(scan.points_m.size());
-  std::memcpy(scan.colours.front().data(), cloud.rgb().data(), cloud.rgb().size());
-  return scan;
-}
-
-Scan scan_of(const v1::DepthImage& image, std::uint64_t max_points) {
-  if (!image.has_width_px()) throw InputError("depth_image.width_px is not set");
-  if (!image.has_height_px()) throw InputError("depth_image.height_px is not set");
-  const std::uint64_t width = image.width_px();
-  const std::uint64_t height = image.height_px();
-  if (width == 0 || height == 0) throw InputError("depth_image has no pixels");
-  check_points(width * height, max_points);
-  if (width * height * sizeof(std::uint16_t) != image.depth().size()) {
-    throw InputError("depth_image.depth has " + std::to_string(image.depth().size()) + " bytes, " +
-                     std::to_string(width) + " x " + std::to_string(height) + " pixels take " +
-                     std::to_string(width * height * sizeof(std::uint16_t)));
-  }
-  DepthImageOptions options{.fx_px = needed(image.has_fx_px(), image.fx_px(), "depth_image.fx_px"),
-                            .fy_px = needed(image.has_fy_px(), image.fy_px(), "depth_image.fy_px"),
-                            .cx_px = needed(image.has_cx_px(), image.cx_px(), "depth_image.cx_px"),
-                            .cy_px = needed(image.has_cy_px(), image.cy_px(), "depth_image.cy_px")};
-  if (image.has_depth_scale_m()) options.depth_scale_m = image.depth_scale_m();
-  options.validate();
-  Scan scan;
-  std::vector<std::uint16_t> row(width);
-  for (std::uint64_t v = 0; v < height; ++v) {
-    const std::size_t row_bytes = width * sizeof(std::uint16_t);
-    std::memcpy(row.data(), image.depth().data() + v * row_bytes, row_bytes);
-    append_depth_row(row, static_cast<std::uint32_t>(v), options, scan);
-  }
-  return scan;
-}
-
 std::optional<std::string> set_or_none(bool is_set, const std::string& value) {
   return is_set ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
-
-Transform from_message(const v1::Pose& pose, const std::string& field) {
-  const std::array<double, 3> position_m{needed(pose.has_x_m(), pose.x_m(), field + ".x_m"),
-                                         needed(pose.has_y_m(), pose.y_m(), field + ".y_m"),
-                                         needed(pose.has_z_m(), pose.z_m(), field + ".z_m")};
-  if (pose.rotation_size() > 0) {
-    Transform T = Transform::Identity();
-    T.translation() = Eigen::Vector3d(position_m[0], position_m[1], position_m[2]);
-    T.linear() = rotation_from(pose, field);
-    return T;
-  }
-  const std::array<double, 4> orientation_xyzw{needed(pose.has_qx(), pose.qx(), field + ".qx"),
-                                               needed(pose.has_qy(), pose.qy(), field + ".qy"),
-                                               needed(pose.has_qz(), pose.qz(), field + ".qz"),
-                                               needed(pose.has_qw(), pose.qw(), field + ".qw")};
-  try {
-    return pose_from_quaternion(position_m, orientation_xyzw);
-  } catch (const InputError& error) {
-    throw InputError(field + ": " + error.what());
-  }
-}
-
-Transform from_message(const v1::BasePose& base, const std::string& field) {
-  switch (base.kind_case()) {
-    case v1::BasePose::kPlanar: {
-      const v1::PlanarPose& planar = base.planar();
-      const std::string name = field + ".planar";
-      const std::array<double, 4> numbers{
-          needed(planar.has_x_m(), planar.x_m(), name + ".x_m"),
-          needed(planar.has_y_m(), planar.y_m(), name + ".y_m"),
-          needed(true, planar.z_m(), name + ".z_m"),
-          needed(planar.has_yaw_rad(), planar.yaw_rad(), name + ".yaw_rad")};
-      return base_pose(numbers[0], numbers[1], numbers[2], numbers[3]);
-    }
-    case v1::BasePose::kPose:
-      return from_message(base.pose(), field + ".pose");
-    case v1::BasePose::KIND_NOT_SET:
-      break;
-  }
-  throw InputError(field + " is not set: give planar or pose");
-}
-
-JointPosition from_message(const v1::JointPosition& joints, const std::string& field) {
-  return {
-      .pan_rad = needed(joints.has_pan_rad(), joints.pan_rad(), field + ".pan_rad"),
-      .tilt_rad = needed(joints.has_tilt_rad(), joints.tilt_rad(), field + ".tilt_rad"),
-      .height_m = needed(joints.has_height_m(), joints.height_m(), field + ".height_m"),
-  };
-}
-
-BaseTwist from_message(const v1::BaseTwist& twist, const std::string& field) {
-  return {.vx_m_s = needed(twist.has_vx_m_s(), twist.vx_m_s(), field + ".vx_m_s"),
-          .vy_m_s = needed(twist.has_vy_m_s(), twist.vy_m_s(), field + ".vy_m_s"),
-          .wz_rad_s = needed(twist.has_wz_rad_s(), twist.wz_rad_s(), field + ".wz_rad_s")};
-}
 
 Search from_message(const v1::Search& search) {
   return {.solver = set_or_none(search.has_solver(), search.solver()),
@@ -236,12 +78,6 @@ ViewGain from_message(const v1::ViewGain& view) {
           .unknown_rays = view.unknown_rays(),
           .occupied_rays = view.occupied_rays(),
           .free_rays = view.free_rays()};
-}
-
-MapFormat from_message(v1::MapFormat format) {
-  if (format == v1::MAP_FORMAT_UNSPECIFIED) return MapFormat::uncertainty_ot;
-  if (const auto own = value_in(kFormats, format)) return *own;
-  throw InputError("format is " + std::to_string(format) + ", which is no map format");
 }
 
 PlanRequest from_message(const v1::PlanRequest& message) {
@@ -330,58 +166,6 @@ PlanResult from_message(const v1::PlanReply& reply) {
   return result;
 }
 
-Transform from_message(const v1::View& view, const Mast& mast, const std::string& field) {
-  switch (view.kind_case()) {
-    case v1::View::kSensor:
-      return from_message(view.sensor(), field + ".sensor");
-    case v1::View::kMounted: {
-      const std::string name = field + ".mounted";
-      return from_message(view.mounted().base(), name + ".base") *
-             mast.T_base_sensor(from_message(view.mounted().joints(), name + ".joints"));
-    }
-    case v1::View::KIND_NOT_SET:
-      break;
-  }
-  throw InputError(field + " is not set: give sensor or mounted");
-}
-
-Scan scan_from_message(const v1::InsertScanRequest& request, std::uint64_t max_points) {
-  switch (request.scan_case()) {
-    case v1::InsertScanRequest::kPoints:
-      return scan_of(request.points(), max_points);
-    case v1::InsertScanRequest::kDepthImage:
-      return scan_of(request.depth_image(), max_points);
-    case v1::InsertScanRequest::SCAN_NOT_SET:
-      break;
-  }
-  throw InputError("scan is not set: give points or depth_image");
-}
-
-v1::Pose to_message(const Transform& T) {
-  v1::Pose pose;
-  const Eigen::Vector3d p = T.translation();
-  const Eigen::Quaterniond q(T.linear());
-  pose.set_x_m(p.x());
-  pose.set_y_m(p.y());
-  pose.set_z_m(p.z());
-  pose.set_qx(q.x());
-  pose.set_qy(q.y());
-  pose.set_qz(q.z());
-  pose.set_qw(q.w());
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) pose.add_rotation(T.linear()(row, column));
-  }
-  return pose;
-}
-
-v1::JointPosition to_message(const JointPosition& joints) {
-  v1::JointPosition message;
-  message.set_pan_rad(joints.pan_rad);
-  message.set_tilt_rad(joints.tilt_rad);
-  message.set_height_m(joints.height_m);
-  return message;
-}
-
 v1::Search to_message(const Search& search) {
   v1::Search message;
   if (search.solver) message.set_solver(*search.solver);
@@ -408,10 +192,6 @@ v1::ViewGain to_message(const ViewGain& view) {
   message.set_occupied_rays(view.occupied_rays);
   message.set_free_rays(view.free_rays);
   return message;
-}
-
-v1::MapFormat to_message(MapFormat format) {
-  return name_in(kFormats, format).value_or(v1::MAP_FORMAT_UNSPECIFIED);
 }
 
 v1::PlanRequest to_message(const PlanRequest& request) {
@@ -477,17 +257,6 @@ void add_to(google::protobuf::RepeatedPtrField<v1::HazardCount>& counts,
     count.set_hits(hazards.count(context).hits);
     count.set_metres(hazards.count(context).metres);
   }
-}
-
-v1::PointCloud to_message(const Scan& scan) {
-  v1::PointCloud cloud;
-  cloud.set_xyz_m(packed_points(scan.points_m));
-  cloud.set_no_return_xyz(packed_points(scan.no_returns));
-  if (!scan.colours.empty()) {
-    cloud.set_rgb(std::string(reinterpret_cast<const char*>(scan.colours.front().data()),
-                              3 * scan.colours.size()));
-  }
-  return cloud;
 }
 
 }  // namespace nbvopt
