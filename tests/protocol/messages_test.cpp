@@ -1,7 +1,3 @@
-#include "protocol/map_messages.hpp"
-#include "protocol/plan_messages.hpp"
-#include "protocol/pose_messages.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +6,9 @@
 
 #include "nbvopt/core/error.hpp"
 #include "protocol/limit_error.hpp"
+#include "protocol/map_messages.hpp"
+#include "protocol/plan_messages.hpp"
+#include "protocol/pose_messages.hpp"
 #include "server/server_world.hpp"
 #include "support/error_message.hpp"
 #include "support/numbers.hpp"
