@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/normal.hpp"
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "sim/people/people_scene.hpp"
@@ -31,13 +32,12 @@ Scan SimulatedCamera::capture(const Transform& T_map_sensor, std::uint64_t frame
   const std::vector<float> distances_m = cast(pixels_, T_map_sensor);
   std::seed_seq seeds{seed_, seed_ >> 32, frame, frame >> 32};
   std::mt19937_64 random(seeds);
-  std::normal_distribution<double> noise_m(0.0, range_noise_m_ > 0.0 ? range_noise_m_ : 1.0);
 
   Scan scan;
   scan.points_m.reserve(pixels_.size());
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    const double noise = range_noise_m_ > 0.0 ? noise_m(random) : 0.0;
-    const double distance_m = distances_m[i] + noise;
+    const double noise_m = range_noise_m_ > 0.0 ? range_noise_m_ * standard_normal(random) : 0.0;
+    const double distance_m = distances_m[i] + noise_m;
     if (distance_m < pixels_.range_min_m[i]) continue;
     const Eigen::Vector3d direction = pixels_.direction(i);
     if (distance_m < pixels_.range_max_m[i]) {
