@@ -1,5 +1,6 @@
 # What `cmake --install` puts in place: the libraries with headers and package config (the component
-# dev), the tool (tool), the Python module (python). A component is a Debian package.
+# dev), the tool (tool), the Python module (python), the ROS node (ros). A component is a Debian
+# package.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nbvopt)
@@ -55,4 +56,7 @@ if(TARGET nbvopt_cli)
 endif()
 if(NBVOPT_BUILD_PYTHON)
   nbvopt_install_licence(python python3-nbvopt)
+endif()
+if(NBVOPT_BUILD_ROS)
+  nbvopt_install_licence(ros nbvopt-ros)
 endif()

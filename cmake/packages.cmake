@@ -41,7 +41,8 @@ if(NBVOPT_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-nbvopt)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/python/postinst ${scripts}/python/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${scripts}/python_modules/postinst ${scripts}/python_modules/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module: maps, planner and simulator, and a client \
 of the planning server, which needs what is recommended.")
   # The module is built for one version of Python.
@@ -49,6 +50,21 @@ of the planning server, which needs what is recommended.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
 python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-grpcio, python3-protobuf")
+endif()
+
+if(NBVOPT_BUILD_ROS)
+  list(APPEND CPACK_COMPONENTS_ALL ros)
+  set(CPACK_DEBIAN_ROS_PACKAGE_NAME nbvopt-ros)
+  set(CPACK_DEBIAN_ROS_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_ROS_PACKAGE_CONTROL_EXTRA
+    ${scripts}/python_modules/postinst ${scripts}/python_modules/prerm)
+  set(CPACK_COMPONENT_ROS_DESCRIPTION "The ROS 1 node that keeps a map and moves the camera, a simulated \
+robot for it, launch files, and the interfaces for rospy and rosservice.")
+  # The launch files', and what the interfaces' modules import.
+  set(CPACK_DEBIAN_ROS_PACKAGE_DEPENDS "python3-roslaunch, python3-genpy, python3-geometry-msgs, \
+python3-std-msgs")
+  set(CPACK_DEBIAN_ROS_PACKAGE_RECOMMENDS "python3-rosservice, nbvopt")  # the latter plans drives
+  set(CPACK_DEBIAN_ROS_PACKAGE_SUGGESTS rviz)
 endif()
 
 include(CPack)

@@ -42,22 +42,25 @@ fi
 rm -rf "$root"
 cp -a "$work/bare" "$root"
 mount -t proc proc "$root/proc"
+echo 127.0.0.1 localhost >"$root/etc/hosts"  # roslaunch looks for it
 mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages"
 inside apt-get update -qq
+names=$(inside sh -c 'for f in /packages/*.deb; do dpkg-deb -f $f Package; done')
+has_ros() { grep -qx nbvopt-ros <<<"$names"; }  # where roscpp was installed when they were built
 say "a bare Debian $(cat "$root/etc/debian_version") stands"
 
 # What they depend on comes first and stays, so that the files before and after can be compared.
 inside sh -c 'for f in /packages/*.deb; do dpkg-deb -f $f Depends; done' |
   tr ',\n' '\n\n' | sed 's/(.*//;s/|.*//;s/ //g;/^$/d' | sort -u >"$work/depends"
 # shellcheck disable=SC2046
-install man-db $(cat "$work/depends")
+install man-db $(has_ros && echo python3-rosservice) $(cat "$work/depends")
 files >"$work/before"
 say "their $(wc -l <"$work/depends") dependencies are installed"
 
 inside sh -c 'dpkg -i /packages/*.deb' >>"$work/apt.log"
-say "installed: $(inside dpkg-query -W -f '${Package} ${Version}, ${Installed-Size} kB; ' \
-  nbvopt libnbvopt-dev python3-nbvopt)"
+# shellcheck disable=SC2086
+say "installed: $(inside dpkg-query -W -f '${Package} ${Version}, ${Installed-Size} kB; ' $names)"
 datasets=/usr/share/nbvopt/datasets
 inside nbvopt query $datasets/office_partial.ot --base 1.9,2.6,1.57 --pan 0 --tilt 0 --height 0.4 \
   --motion-time 1 --plot /tmp/view.png | grep '^look    pan 2.093 rad'
@@ -74,7 +77,32 @@ inside man nbvopt-map-build | grep -q 'nbvopt map build'
 inside test -e /lib/systemd/system/nbvopt.service
 say "query, robot, simulation, Python, manual: as they should be"
 
-inside apt-get remove -qq -y nbvopt libnbvopt-dev python3-nbvopt >>"$work/apt.log" 2>&1
+# A master, the node and a simulated robot. The first calls may come before the robot has told where
+# it is.
+if has_ros; then
+  cat >"$root/tmp/try_ros.sh" <<EOF
+set -e
+export ROS_MASTER_URI=http://127.0.0.1:11397 ROS_IP=127.0.0.1
+nbvopt simulate $datasets/office.world --start 0.62,0.71,0 --duration-max 5 --explore-only \
+  --no-progress --trajectory-out /tmp/drive.csv >/dev/null
+roslaunch -p 11397 nbvopt simulation.launch world:=$datasets/office.world \
+  trajectory:=/tmp/drive.csv >/tmp/ros.log 2>&1 &
+launch=\$!
+trap 'kill -INT \$launch; wait \$launch || true' EXIT
+for try in \$(seq 60); do
+  sleep 1
+  rosservice call /optimize_current_pose "time: 0.5" >/tmp/answer 2>&1 || continue
+  if grep -q 'success: True' /tmp/answer; then exit 0; fi
+done
+cat /tmp/answer /tmp/ros.log
+exit 1
+EOF
+  inside bash /tmp/try_ros.sh
+  say "the ROS node moved the camera: $(grep ^pan "$root/tmp/answer")"
+fi
+
+# shellcheck disable=SC2086
+inside apt-get remove -qq -y $names >>"$work/apt.log" 2>&1
 files >"$work/after"
 diff "$work/before" "$work/after"
 say "removed, nothing is left"
