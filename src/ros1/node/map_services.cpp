@@ -48,15 +48,10 @@ SensorOptions sensor_of(const octomap_msgs::EstimateGain::Request& request, Sens
 
 template <class Request, class Response, class Answer>
 void MapServices::advertise(ros::NodeHandle& node, const std::string& name, const Answer& answer) {
-  const std::function<bool(Request&, Response&)> callback = [name, answer](Request& request,
-                                                                           Response& response) {
-    try {
-      answer(request, response);
-      return true;
-    } catch (const std::exception& error) {
-      ROS_WARN("%s: %s", name.c_str(), error.what());
-    }
-    return false;
+  const std::function<bool(Request&, Response&)> callback = [answer](Request& request,
+                                                                     Response& response) {
+    answer(request, response);
+    return true;
   };
   servers_.push_back(node.advertiseService<Request, Response>(name, callback));
 }

@@ -19,7 +19,7 @@ namespace nbvopt {
 
 /// estimate_gain, get_map_info, get_map_voxels, get_AABBox_info, get_AABBox_gain, clear_bbx and
 /// reset under the node's own name, octomap_binary and octomap_full. A call that cannot be answered
-/// fails, and the log says why.
+/// fails, and roscpp tells client and log why.
 class MapServices {
  public:
   MapServices(ros::NodeHandle& node, ros::NodeHandle& private_node,
@@ -32,7 +32,7 @@ class MapServices {
                  octomap_msgs::GetAABBoxValue::Response& response, bool is_gain) const;
   void get_octomap(octomap_msgs::GetOctomap::Response& response, bool is_binary) const;
 
-  /// Advertises a service; what the answer throws is logged, and the call fails.
+  /// Advertises a service; what the answer throws roscpp logs, and sends to the client as an error.
   template <class Request, class Response, class Answer>
   void advertise(ros::NodeHandle& node, const std::string& name, const Answer& answer);
 
