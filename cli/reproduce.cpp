@@ -175,7 +175,7 @@ void set_up_reproduce(CLI::App& app) {
   command->add_flag("!--without-people", experiment.has_people, "leave out the worlds' actors");
   add_number(*command, "--duration-max", experiment.duration_max_s, "SECONDS",
              "end explorations after this, for short trials [3600; 1615 in willowgarage; in 3D as "
-             "long as the paper's]");
+             "long as the paper's, for views a third of that if it is more]");
   command->add_flag("--dry-run", options->dry_run,
                     "print the commands, one a line, and their number");
   command->add_flag("--tables-only", options->tables_only,

@@ -17,7 +17,7 @@ struct ExperimentEnvironment {
   std::string_view paper_name;    ///< PaperEnvironment::name
   std::string_view world_file;    ///< below the folder of the worlds
   double lidar_range_m;           ///< where beams are cropped for the map in the plane
-  double duration_max_s;          ///< explorations end then
+  double duration_max_s;          ///< explorations in the plane end then
   std::vector<StartPose> starts;  ///< empty: free places, which its world shows
 };
 

@@ -11,11 +11,15 @@ namespace {
 
 constexpr std::string_view kDriveEnding = "trajectory";
 
+/// Ours in space is given a third of the time that the paper's took there, or as long as a drive in
+/// the plane.
 double duration_max_s(const ExperimentEnvironment& environment, ExplorerKind explorer) {
-  if (!ends_with_papers(explorer)) return environment.duration_max_s;
+  if (explorer == ExplorerKind::plane) return environment.duration_max_s;
   const auto papers = paper_tables();
-  return std::ranges::find(papers, environment.paper_name, &PaperEnvironment::name)
-      ->spatial.duration_s;
+  const double papers_s = std::ranges::find(papers, environment.paper_name, &PaperEnvironment::name)
+                              ->spatial.duration_s;
+  return ends_with_papers(explorer) ? papers_s
+                                    : std::max(environment.duration_max_s, papers_s / 3.0);
 }
 
 /// Where drives begin, and by which seed they are made.

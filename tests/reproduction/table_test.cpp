@@ -234,6 +234,18 @@ TEST_F(Reproduction, TestsThatAreLeftOutHaveNoRows) {
       << "on a drive for views nothing runs at t = 1 s";
 }
 
+TEST_F(Reproduction, WillowgarageIsLargerThanThePapersDriveInThePlane) {
+  options.environments = {"willowgarage"};
+  options.starts = 1;
+  for (const Unit& unit : experiment_units(options)) {
+    const auto* drive = std::get_if<DriveSetting>(&unit.simulation.setting);
+    if (drive == nullptr) continue;
+    const bool is_ours = drive->explorer == ExplorerKind::views;
+    const bool is_planar = drive->explorer == ExplorerKind::plane;
+    EXPECT_EQ(drive->duration_max_s, is_planar ? 1615.0 : is_ours ? 40271.0 / 3.0 : 40271.0);
+  }
+}
+
 TEST_F(Reproduction, ADriveOfThePapersInSpaceEndsWithThePapers) {
   for (const Unit& unit : units) {
     const auto* drive = std::get_if<DriveSetting>(&unit.simulation.setting);
