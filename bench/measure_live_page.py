@@ -10,6 +10,7 @@ that a reader gets while plans come as fast as they can.
 
 import contextlib
 import http.client
+import json
 import multiprocessing
 import statistics
 import subprocess
@@ -23,9 +24,11 @@ STILL = {"base": (3.0, 1.1, 0.0), "joints": (0.0, 0.0, 0.4), "motion_time_s": 1.
 
 
 class Served:
-    def __init__(self, nbvopt: str):
+    def __init__(self, nbvopt: str, *what: str):
+        """`what` says which map, as serve's arguments; none: an empty one."""
         self._process = subprocess.Popen(
-            [nbvopt, "serve", "--create", "0.05", "--listen", "127.0.0.1:0", "--web", "127.0.0.1:0"],
+            [nbvopt, "serve", *(what or ("--create", "0.05")), "--listen", "127.0.0.1:0",
+             "--web", "127.0.0.1:0"],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.address = self._process.stdout.readline().split()[-1]
         self.web = self._process.stdout.readline().split("//")[-1].strip("/\n")
@@ -51,22 +54,23 @@ class Reader(multiprocessing.Process):
     def run(self) -> None:
         events = http.client.HTTPConnection(self.web)
         events.request("GET", "/events")
-        shown = None
+        shown = ""
         with contextlib.suppress(OSError, http.client.HTTPException):
             for line in events.getresponse():
                 if not line.startswith(b"data:"):
                     continue
                 self.events.value += 1
-                newest = line.split(b'"')[3]
-                if newest != shown:
-                    shown = newest
-                    self._fetch_map()
+                if line.split(b'"')[3].decode() != shown:
+                    shown = self._fetch_map(shown)
 
-    def _fetch_map(self) -> None:
+    def _fetch_map(self, since: str) -> str:
+        """What changed since then; returns what that makes."""
         page = http.client.HTTPConnection(self.web)
-        page.request("GET", "/map")
-        self.map_bytes.value = len(page.getresponse().read())
+        page.request("GET", f"/map?since={since}")
+        answer = page.getresponse().read()
+        self.map_bytes.value = len(answer)
         self.maps.value += 1
+        return json.loads(answer)["id"]
 
 
 class Driver:

@@ -5,7 +5,6 @@
 
 #include "web/answer_json.hpp"
 #include "web/first_captures.hpp"
-#include "web/grid_counts.hpp"
 #include "web/packed.hpp"
 #include "web/voxel_gains.hpp"
 
@@ -29,25 +28,21 @@ std::string packed_captures(const FaceSet& set,
 
 }  // namespace
 
+Json map_json(const std::string& name, const Lattice& lattice, bool carries_uncertainty,
+              const MapCounts& counts) {
+  return {{"name", name},
+          {"resolution_m", lattice.resolution_m()},
+          {"key_of_origin", Lattice::kKeyOfOrigin},
+          {"carries_uncertainty", carries_uncertainty},
+          {"occupied_voxels", counts.occupied_voxels},
+          {"free_voxels", counts.free_voxels},
+          {"information", counts.information}};
+}
+
 MapPage::MapPage(const std::string& name, const UncertaintyMap& map,
                  const std::optional<KeyBox>& box)
-    : MapPage(name, map.lattice(), map.carries_uncertainty(), map.counts(),
-              surface_mesh(map, box)) {}
-
-MapPage::MapPage(const std::string& name, const VoxelGrid& grid)
-    : MapPage(name, grid.lattice(), grid.carries_uncertainty(), grid_counts(grid),
-              surface_mesh(grid)) {}
-
-MapPage::MapPage(const std::string& name, const Lattice& lattice, bool carries_uncertainty,
-                 const MapCounts& counts, SurfaceMesh mesh)
-    : name_(name), mesh_(std::move(mesh)) {
-  data_["map"] = {{"name", name},
-                  {"resolution_m", lattice.resolution_m()},
-                  {"key_of_origin", Lattice::kKeyOfOrigin},
-                  {"carries_uncertainty", carries_uncertainty},
-                  {"occupied_voxels", counts.occupied_voxels},
-                  {"free_voxels", counts.free_voxels},
-                  {"information", counts.information}};
+    : name_(name), mesh_(surface_mesh(map, box)) {
+  data_["map"] = map_json(name, map.lattice(), map.carries_uncertainty(), map.counts());
   const auto add = [&](const std::string& id, const FaceSet& set) {
     const auto* values = reinterpret_cast<const char*>(set.values.data());
     blocks_.push_back({id, packed_rectangles(set.rectangles)});
@@ -118,12 +113,5 @@ void MapPage::add_episode(const std::vector<EpisodeCapture>& captures, const Vox
 }
 
 std::string MapPage::html() const { return page_html(name_, data_, blocks_); }
-
-Json MapPage::json() const {
-  Json json = data_;
-  Json& blocks = json["blocks"] = Json::object();
-  for (const PageBlock& block : blocks_) blocks[block.id] = block.base64;
-  return json;
-}
 
 }  // namespace nbvopt

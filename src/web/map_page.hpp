@@ -14,15 +14,16 @@
 
 namespace nbvopt {
 
+/// What a page tells of a map.
+Json map_json(const std::string& name, const Lattice& lattice, bool carries_uncertainty,
+              const MapCounts& counts);
+
 /// Gathers what a page shows, then writes it.
 class MapPage {
  public:
   /// The map, or the part of it in `box`; `name` is what it is called. Throws InputError as
   /// surface_mesh() does.
   MapPage(const std::string& name, const UncertaintyMap& map, const std::optional<KeyBox>& box);
-
-  /// All of a whole grid, such as a server publishes.
-  MapPage(const std::string& name, const VoxelGrid& grid);
 
   /// The robot, the view that it has and the one that the answer chooses, the gain over pan and
   /// tilt around it, and of the exact positive gain the voxels that it comes from; `planner` has
@@ -43,12 +44,7 @@ class MapPage {
 
   std::string html() const;
 
-  /// The same for a page that is there already: what html() has as `data`, and its `blocks`.
-  Json json() const;
-
  private:
-  MapPage(const std::string& name, const Lattice& lattice, bool carries_uncertainty,
-          const MapCounts& counts, SurfaceMesh mesh);
   void add_landscape(const AnswerFile& answer, const ViewPlanner& planner);
   void add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner);
 

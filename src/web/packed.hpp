@@ -24,6 +24,10 @@ std::string packed_array(const std::vector<Number>& numbers) {
 /// height - 1 (5 bits) and normal (3 bits) from the lowest bit on.
 std::string packed_rectangles(std::span<const FaceRectangle> rectangles);
 
+/// All of a surface: how many rectangles each set has, as three 32-bit numbers; the rectangles as
+/// above; the values of `seen` and `backs`. Empty for no surface.
+std::string packed_surface(const SurfaceMesh& mesh);
+
 /// Single-precision numbers.
 std::string packed_numbers(std::span<const double> numbers);
 

@@ -122,11 +122,6 @@ std::uint64_t bricks_in(const KeyBox& box) {
   return count(box.min.x, box.max.x) * count(box.min.y, box.max.y) * count(box.min.z, box.max.z);
 }
 
-[[noreturn]] void refuse(std::uint64_t most, const char* things) {
-  throw InputError("the map is too large to be drawn as a whole, it has more than " +
-                   std::to_string(most) + " " + things + ": choose a smaller box of it");
-}
-
 /// The bricks of a tree, each read when it is first asked for.
 class TreeBricks {
  public:
@@ -157,8 +152,6 @@ class GridBricks {
  public:
   explicit GridBricks(const detail::BrickTable& table) : table_(table) {}
 
-  std::vector<BrickKey> blocks() const { return table_.read_blocks(); }
-  void begin_block() {}
   const BrickStates* states(BrickKey brick) const {
     const detail::Brick* ready = table_.ready_brick(brick);
     return ready == nullptr ? nullptr : ready->states.get();
@@ -188,6 +181,11 @@ class Mesher {
         }
       }
     }
+    return std::move(mesh_);
+  }
+
+  SurfaceMesh mesh(BrickKey brick) {
+    add_brick(brick);
     return std::move(mesh_);
   }
 
@@ -271,7 +269,7 @@ class Mesher {
         });
       });
     }
-    if (set.faces > kMostFaces) refuse(kMostFaces, "faces");
+    if (set.faces > kMostFaces) refuse_to_draw(kMostFaces, "faces");
   }
 
   Bricks bricks_;
@@ -284,13 +282,18 @@ class Mesher {
 SurfaceMesh surface_mesh(const UncertaintyMap& map, const std::optional<KeyBox>& box) {
   const std::uint64_t bricks = map.known_bricks();
   if ((box ? std::min(bricks, bricks_in(*box)) : bricks) > kMostBricks) {
-    refuse(kMostBricks, "bricks of 32 x 32 x 32 voxels");
+    refuse_to_draw(kMostBricks, "bricks of 32 x 32 x 32 voxels");
   }
   return Mesher(TreeBricks(detail::MapAccess::tree(map)), box).mesh();
 }
 
-SurfaceMesh surface_mesh(const VoxelGrid& grid) {
-  return Mesher(GridBricks(detail::MapAccess::table(grid)), std::nullopt).mesh();
+SurfaceMesh brick_surface(const detail::BrickTable& grid, BrickKey brick) {
+  return Mesher(GridBricks(grid), std::nullopt).mesh(brick);
+}
+
+void refuse_to_draw(std::uint64_t most, const char* things) {
+  throw InputError("the map is too large to be drawn as a whole, it has more than " +
+                   std::to_string(most) + " " + things + ": choose a smaller box of it");
 }
 
 }  // namespace nbvopt

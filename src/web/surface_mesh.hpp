@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "map/brick_table.hpp"
 #include "nbvopt/map/uncertainty_map.hpp"
-#include "nbvopt/map/voxel_grid.hpp"
 
 namespace nbvopt {
 
@@ -74,8 +74,10 @@ inline constexpr std::uint64_t kMostBricks = std::uint64_t{1} << 18;
 /// where more than kMostBricks in the box are known.
 SurfaceMesh surface_mesh(const UncertaintyMap& map, const std::optional<KeyBox>& box = {});
 
-/// The same of all of a whole grid, such as a server publishes. Throws InputError beyond
-/// kMostFaces.
-SurfaceMesh surface_mesh(const VoxelGrid& grid);
+/// The same of the voxels of one brick of a whole grid, such as a server publishes.
+SurfaceMesh brick_surface(const detail::BrickTable& grid, detail::BrickKey brick);
+
+/// Throws InputError: the map has more than `most` of some things.
+[[noreturn]] void refuse_to_draw(std::uint64_t most, const char* things);
 
 }  // namespace nbvopt

@@ -73,6 +73,11 @@ class LivePageTest(BrowserTest):
     def drawn(self) -> int:
         return self.look()["drawn"]
 
+    def first_look(self) -> tuple:
+        """What is told and drawn of the map where nobody has turned it."""
+        self.browser.find_element("tag name", "body").send_keys("r")
+        return self.text("facts"), self.look()
+
     def test_the_map_grows_and_plans_appear(self):
         server = self.serve()
         self.open(server.web)
@@ -102,6 +107,11 @@ class LivePageTest(BrowserTest):
             self.wait_until(lambda: self.text("live") == "live: map version 5, plan 4")
             self.assertNotEqual(self.text("facts"), facts)
             self.assertIn(f"{plan.view.gain:.1f}", self.text("answer"))
+            # What came bit by bit is what another page is told at once.
+            grown = self.first_look()
+            self.open(server.web)
+            self.wait_until(lambda: self.text("live") == "live: map version 5, plan 4")
+            self.assertEqual(self.first_look(), grown)
             planner.clear_map()
             self.wait_until(lambda: "nothing is known" in self.text("notice"))
         self.assert_quiet()

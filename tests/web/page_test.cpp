@@ -67,5 +67,15 @@ TEST(Packed, RectanglesAreFourNumbersEach) {
   EXPECT_EQ(packed_rectangles(std::vector{rectangle}), "eJxjZmBiYGS4LwIAAgIA+g==");
 }
 
+TEST(Packed, ASurfaceIsItsSetsOneAfterTheOther) {
+  EXPECT_EQ(packed_surface({}), "");
+  const SurfaceMesh mesh{.seen = {{{{3, 2, 1}, FaceNormal::plus_z, 2, 1}}, {7, 8}, 2},
+                         .backs = {{{{6, 5, 4}, FaceNormal::plus_x, 1, 1}}, {9}, 1},
+                         .frontier = {{{{1, 1, 1}, FaceNormal::minus_x, 1, 1}}, {}, 1}};
+  // What zlib makes of 1, 1, 1 in four bytes each; 3, 2, 1, 1 | 5 << 10; 6, 5, 4, 1 << 10; 1, 1, 1,
+  // 0; and 7, 8, 9 in one byte each, checked with Python's zlib.
+  EXPECT_EQ(packed_surface(mesh), "eJxjZGBgYIRiZgYmIM0owsbAysDCwMDCCOIBxdk5OAEESwBN");
+}
+
 }  // namespace
 }  // namespace nbvopt::test

@@ -6,11 +6,11 @@
 #include <map>
 #include <sstream>
 
+#include "map/map_access.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/map/map_file.hpp"
 #include "support/error_message.hpp"
 #include "support/made_map.hpp"
-#include "web/grid_counts.hpp"
 
 namespace nbvopt::test {
 namespace {
@@ -80,16 +80,33 @@ UncertaintyMap random_map(double clutter, std::uint64_t seed) {
   return map;
 }
 
+/// The surfaces of the bricks that meet a box, one after the other.
+SurfaceMesh brick_by_brick(const VoxelGrid& grid, const KeyBox& box) {
+  SurfaceMesh all;
+  detail::bricks_of(box).for_each([&](detail::BrickKey key) {
+    const SurfaceMesh brick = brick_surface(detail::MapAccess::table(grid), key);
+    for (FaceSet SurfaceMesh::*set :
+         {&SurfaceMesh::seen, &SurfaceMesh::backs, &SurfaceMesh::frontier}) {
+      const FaceSet& from = brick.*set;
+      FaceSet& to = all.*set;
+      to.rectangles.insert(to.rectangles.end(), from.rectangles.begin(), from.rectangles.end());
+      to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+      to.faces += from.faces;
+    }
+  });
+  return all;
+}
+
 TEST(SurfaceMesh, HasEachFaceOnceWithItsUncertainty) {
   for (const double clutter : {0.05, 0.5, 0.95}) {
     const UncertaintyMap map = random_map(clutter, 1);
     const KeyBox box = cube(key_from_origin(-10, -10, -10), 21);
     expect_brute_force(map, surface_mesh(map), box);
-    expect_brute_force(map, surface_mesh(*VoxelGrid::whole(map)), box);
+    expect_brute_force(map, brick_by_brick(*VoxelGrid::whole(map), box), box);
   }
 }
 
-TEST(SurfaceMesh, OfAGridHasWhatScansHaveChanged) {
+TEST(BrickSurface, HasWhatScansHaveChanged) {
   UncertaintyMap map(0.1);
   map.set(key_from_origin(0, 0, 0), occupied(0.5F));
   map.finish_writing();
@@ -97,22 +114,9 @@ TEST(SurfaceMesh, OfAGridHasWhatScansHaveChanged) {
   const VoxelKey far = key_from_origin(5000, 5000, 5000);
   const VoxelChange change{.key = far, .state = VoxelState::occupied, .uncertainty = 0.25F};
   const auto grid = VoxelGrid::whole(map)->updated(std::vector{change});
-  const SurfaceMesh mesh = surface_mesh(*grid);
-  EXPECT_EQ(mesh.backs.faces, 12U);
+  const SurfaceMesh mesh = brick_surface(detail::MapAccess::table(*grid), detail::brick_of(far));
+  EXPECT_EQ(mesh.backs.faces, 6U);
   EXPECT_EQ(apart(mesh.backs).at({far.x, far.y, far.z, 0}), 63);
-  const MapCounts counts = grid_counts(*grid);
-  EXPECT_EQ(counts.occupied_voxels, 2U);
-  EXPECT_EQ(counts.information, 1.25);
-}
-
-TEST(GridCounts, AreThoseOfTheMap) {
-  const UncertaintyMap map = random_map(0.5, 3);
-  const MapCounts expected = map.counts();
-  const MapCounts counts = grid_counts(*VoxelGrid::whole(map));
-  EXPECT_EQ(counts.occupied_voxels, expected.occupied_voxels);
-  EXPECT_EQ(counts.free_voxels, expected.free_voxels);
-  EXPECT_EQ(counts.certain_voxels, expected.certain_voxels);
-  EXPECT_NEAR(counts.information, expected.information, 1e-9 * expected.information);
 }
 
 TEST(SurfaceMesh, MergesWhatLiesInOnePlane) {

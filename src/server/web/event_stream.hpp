@@ -20,8 +20,8 @@ class EventStream {
   static constexpr std::chrono::seconds kHeartbeat{5};
 
   /// Who takes nothing for `most_stall` is let go. Page and log must outlive it.
-  EventStream(const LivePage& page, WebLog& log, std::chrono::milliseconds most_stall)
-      : page_(page), log_(log), most_stall_(most_stall) {}
+  EventStream(LivePage& page, WebLog& log, std::chrono::milliseconds most_stall)
+      : page_(page), reader_(page), log_(log), most_stall_(most_stall) {}
 
   /// To be called every kTurn. `send` says whether it could be sent. False: the stream has ended.
   bool turn(bool has_taken_all, const std::function<bool(const std::string&)>& send);
@@ -30,6 +30,7 @@ class EventStream {
   using Clock = std::chrono::steady_clock;
 
   const LivePage& page_;
+  const LivePage::Reader reader_;
   WebLog& log_;
   const std::chrono::milliseconds most_stall_;
   std::optional<LiveVersion> told_;

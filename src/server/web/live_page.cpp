@@ -1,9 +1,9 @@
 #include "server/web/live_page.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
-#include "core/json.hpp"
 #include "nbvopt/core/error.hpp"
 #include "web/answer_json.hpp"
 #include "web/map_page.hpp"
@@ -46,28 +46,53 @@ std::string LivePage::state() const {
   return line_of(state);
 }
 
-std::shared_ptr<const std::string> LivePage::map() {
-  constexpr int kShare = 4;  // of the time that it took
-  const std::scoped_lock lock(making_);
-  const std::shared_ptr<const VoxelGrid> grid = sources_.published()->grid();
-  const Clock::time_point start = Clock::now();
-  if (map_ != nullptr && (made_version_ == grid->version() || start < next_)) return map_;
-  map_ = std::make_shared<const std::string>(made_map(*grid));
-  made_version_ = grid->version();
-  const Clock::time_point end = Clock::now();
-  next_ = end + std::max<Clock::duration>(least_pause_, kShare * (end - start));
-  return map_;
+std::optional<std::uint64_t> LivePage::version_of(std::string_view id) const {
+  const std::string run = std::to_string(sources_.run_id) + "-";
+  if (!id.starts_with(run)) return std::nullopt;
+  id.remove_prefix(run.size());
+  std::uint64_t version = 0;
+  const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), version);
+  if (error != std::errc() || end != id.data() + id.size()) return std::nullopt;
+  return version;
 }
 
-std::string LivePage::made_map(const VoxelGrid& grid) const {
-  const std::string id = id_of(grid.version());
+void LivePage::keep_up() {
+  constexpr int kShare = 4;  // of the time that it took
+  const std::shared_ptr<const VoxelGrid> grid = sources_.published()->grid();
+  const Clock::time_point start = Clock::now();
+  if (surface_.version() == grid->version() || start < next_) return;
+  surface_.show(grid);
+  map_json_ =
+      map_json(sources_.title, grid->lattice(), grid->carries_uncertainty(), surface_.counts());
+  if (readers_ == 0) surface_.forget_grid();
+  const Clock::time_point end = Clock::now();
+  next_ = end + std::max<Clock::duration>(least_pause_, kShare * (end - start));
+}
+
+SharedBytes LivePage::map(const std::string& since) {
+  const std::scoped_lock lock(making_);
+  keep_up();
+  std::optional<std::uint64_t> version = version_of(since);
+  if (version && !surface_.knows(*version)) version.reset();
+  const std::string id = id_of(surface_.version());
   try {
-    Json json = MapPage(sources_.title, grid).json();
-    json["id"] = id;
-    return line_of(json);
+    const SharedBytes bricks = surface_.members(version);
+    std::string head = line_of(
+        {{"id", id}, {"is_whole", !version}, {"map", map_json_}, {"bricks", Json::object()}});
+    constexpr std::size_t kOpenEnds = 2;  // the braces of the bricks and of all
+    SharedBytes answer(head.substr(0, head.size() - kOpenEnds));
+    for (const SharedBytes::Piece& piece : bricks.pieces()) answer.append(piece);
+    answer.append(std::string("}}"));
+    return answer;
   } catch (const InputError& error) {
-    return line_of({{"id", id}, {"error", error.what()}});
+    return SharedBytes(line_of({{"id", id}, {"error", error.what()}}));
   }
+}
+
+void LivePage::end_reader() {
+  if (--readers_ > 0) return;
+  const std::scoped_lock lock(making_);
+  if (readers_ == 0) surface_.forget_grid();
 }
 
 }  // namespace nbvopt

@@ -1,15 +1,21 @@
 // The page of a server's map: what it shows, as it changes.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "core/json.hpp"
+#include "core/shared_bytes.hpp"
 #include "nbvopt/planner/view_planner.hpp"
 #include "server/plan_log.hpp"
+#include "web/growing_surface.hpp"
 
 namespace nbvopt {
 
@@ -31,9 +37,9 @@ struct LiveVersion {
 /// Safe to share between threads.
 class LivePage {
  public:
-  /// Maps are made at least `least_pause` apart.
+  /// Surfaces are made at least `least_pause` apart.
   explicit LivePage(LiveSources sources,
-                    std::chrono::milliseconds least_pause = std::chrono::milliseconds(500));
+                    std::chrono::milliseconds least_pause = std::chrono::milliseconds(100));
 
   /// The page itself, which asks for the rest.
   const std::shared_ptr<const std::string>& html() const { return html_; }
@@ -44,24 +50,45 @@ class LivePage {
   /// `answer`, the newest plan, where there is one.
   std::string state() const;
 
-  /// The map's surface as MapPage::json() has it, with `id`: the `map` that it shows. Made when
-  /// somebody asks and shared by all who do; when that takes long an older one is given, so that no
-  /// more than a fifth of a core goes into it. Where the map is too large, `error` says so instead.
-  std::shared_ptr<const std::string> map();
+  /// JSON for a reader that shows the map of the id `since` (any other text: none): `id`, that of
+  /// the map which this makes; `map` as map_json() has it; `bricks`, the members of
+  /// GrowingSurface::members() that changed; `is_whole`, where those are all there are. Surfaces
+  /// are made when somebody asks, once for all who do; when that takes long an older map is given,
+  /// so that no more than a fifth of a core goes into it. Where the map is too large, `error` says
+  /// so instead.
+  SharedBytes map(const std::string& since = "");
+
+  /// Somebody who follows the page. While there is one, the last grid is kept to compare the next
+  /// with; the page must outlive it.
+  class Reader {
+   public:
+    explicit Reader(LivePage& page) : page_(page) { ++page_.readers_; }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader() { page_.end_reader(); }
+
+   private:
+    LivePage& page_;
+  };
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::string id_of(std::uint64_t map_version) const;
-  std::string made_map(const VoxelGrid& grid) const;
+  /// The version of such an id; none of another server's.
+  std::optional<std::uint64_t> version_of(std::string_view id) const;
+  void keep_up();
+  void end_reader();
 
   const LiveSources sources_;
   const std::chrono::milliseconds least_pause_;
   std::shared_ptr<const std::string> html_;
 
-  std::mutex making_;  ///< of what follows; held while a map is made
-  std::shared_ptr<const std::string> map_;
-  std::uint64_t made_version_ = 0;
+  std::atomic<int> readers_{0};
+
+  std::mutex making_;  ///< of what follows; held while surfaces are made
+  GrowingSurface surface_;
+  Json map_json_;
   Clock::time_point next_ = Clock::time_point::min();
 };
 

@@ -3,12 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "core/shared_bytes.hpp"
 #include "nbvopt/core/error.hpp"
 #include "server/acceptor.hpp"
 #include "server/listening_socket.hpp"
@@ -51,14 +52,21 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
   response.set_content(why + "\n", "text/plain");
 }
 
-/// Answers with a text that others may hold, too. The library would compress a body of its own for
+/// Answers with bytes that others may hold, too. The library would compress a body of its own for
 /// each who asks, and copy it.
-void give(httplib::Response& response, std::shared_ptr<const std::string> text, const char* type) {
-  const std::size_t size = text->size();
+void give(httplib::Response& response, SharedBytes bytes, const char* type) {
+  const std::size_t size = bytes.size();
   response.set_content_provider(
       size, type,
-      [text = std::move(text)](std::size_t from, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(text->data() + from, std::min(length, HttpStream::kPartBytes));
+      [bytes = std::move(bytes), next = std::size_t{0}](std::size_t, std::size_t,
+                                                        httplib::DataSink& sink) mutable {
+        // Small pieces are sent together.
+        const std::vector<SharedBytes::Piece>& pieces = bytes.pieces();
+        std::string part;
+        while (next < pieces.size() && part.size() < HttpStream::kPartBytes / 2) {
+          part += *pieces[next++];
+        }
+        return sink.write(part.data(), part.size());
       });
 }
 
@@ -148,13 +156,13 @@ struct WebServer::Parts {
     if (request.path == "/") {
       response.set_header("Content-Security-Policy",
                           page_policy(PageKind::live) + "; frame-ancestors 'none'");
-      give(response, page.html(), "text/html; charset=utf-8");
+      give(response, SharedBytes(page.html()), "text/html; charset=utf-8");
     } else if (request.path == "/map") {
-      give(response, page.map(), "application/json");
+      give(response, page.map(request.get_param_value("since")), "application/json");
     } else if (request.path == "/events") {
       tell(response);
     } else if (request.path == "/metrics") {
-      give(response, std::make_shared<const std::string>(metrics_text(sources.status(), log)),
+      give(response, SharedBytes(metrics_text(sources.status(), log)),
            "text/plain; version=0.0.4; charset=utf-8");
     } else {
       refuse(response, 404, "there is no such page: see / and /metrics");

@@ -9,27 +9,21 @@ page.element = id => document.getElementById(id);
 /** What the page shows, without its large arrays. */
 page.data = JSON.parse(page.element("data").textContent);
 
-/** Its large arrays, packed, by id, where they do not stand in the page itself. */
-page.blocks = {};
-
-/** Takes the packed text of that id, which is not needed twice. */
-const takeBlock = id => {
-  const element = page.element(id);
-  const text = element ? element.textContent : page.blocks[id];
-  if (element) element.remove();
-  delete page.blocks[id];
-  return text;
-};
-
-/** Unpacks the block of that id: a promise of its bytes; none where it is missing or empty. */
-page.bytes = async id => {
-  const block = takeBlock(id);
+/** Unpacks a text of packed.hpp: a promise of its bytes; none where it is missing or empty. */
+page.unpack = async block => {
   if (!block) return new ArrayBuffer(0);
   const text = atob(block);
   const packed = new Uint8Array(text.length);
   for (let i = 0; i < packed.length; ++i) packed[i] = text.charCodeAt(i);
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(unpacked).arrayBuffer();
+};
+
+/** The bytes of the page's block of that id, which is taken away: it is not needed twice. */
+page.bytes = async id => {
+  const element = page.element(id);
+  if (element) element.remove();
+  return page.unpack(element && element.textContent);
 };
 
 /** A colour of the page's style, as CSS writes it. */

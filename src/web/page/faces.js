@@ -87,6 +87,18 @@ faces.texture = (texels, width, rows, format, type = THREE.UnsignedByteType) => 
   return texture;
 };
 
+/** Of each rectangle of packed.hpp the number of its first face, and of the faces after the last. */
+const firstFaces = rectangles => {
+  const firstFace = new Float32Array(rectangles.length / 4);
+  let next = 0;
+  for (let i = 0; i < firstFace.length; ++i) {
+    firstFace[i] = next;
+    const shape = rectangles[4 * i + 3];
+    next += (1 + (shape & 31)) * (1 + (shape >> 5 & 31));
+  }
+  return [firstFace, next];
+};
+
 /**
  * Unpacks a set of faces: its rectangles, the number of each one's first face, their values and, of
  * an episode, the captures that first saw them.
@@ -95,14 +107,28 @@ faces.unpack = async id => {
   const rectangles = new Uint16Array(await page.bytes(id));
   const values = new Uint8Array(await page.bytes(id + "-values"));
   const captures = new Uint16Array(await page.bytes(id + "-captures"));
-  const firstFace = new Float32Array(rectangles.length / 4);
-  let next = 0;
-  for (let i = 0; i < firstFace.length; ++i) {
-    firstFace[i] = next;
-    const shape = rectangles[4 * i + 3];
-    next += (1 + (shape & 31)) * (1 + (shape >> 5 & 31));
-  }
+  const [firstFace] = firstFaces(rectangles);
   return {rectangles, firstFace, values, captures, count: firstFace.length};
+};
+
+/** Unpacks the sets of a brick, as packed_surface() packs them. */
+faces.unpackBrick = async packed => {
+  const bytes = await page.unpack(packed);
+  const counts = new Uint32Array(bytes, 0, 3);
+  let at = counts.byteLength;
+  const sets = Array.from(counts, count => {
+    const rectangles = new Uint16Array(bytes, at, 4 * count);
+    at += rectangles.byteLength;
+    return {rectangles, count, captures: new Uint16Array(0)};
+  });
+  const [seen, backs, frontier] = sets;
+  for (const set of sets) {
+    const [firstFace, faceCount] = firstFaces(set.rectangles);
+    set.firstFace = firstFace;
+    set.values = new Uint8Array(bytes, at, set === frontier ? 0 : faceCount);
+    at += set.values.byteLength;
+  }
+  return {seen, backs, frontier};
 };
 
 /** The settings that all sets share; those of the lattice are the map's, see faces.setLattice. */
@@ -122,8 +148,8 @@ faces.setLattice = (shared, {key_of_origin, resolution_m}) => {
   shared.resolution.value = resolution_m;
 };
 
-/** A mesh of a set. `look`: {side, opacity, colour}; opaque sets are coloured by their values. */
-faces.mesh = (set, shared, look = {}) => {
+/** A set's rectangles as vertices; `bounds` is a sphere around them, metres, if one is known. */
+faces.geometry = (set, bounds) => {
   // Each number four times: instances of a square would be fewer bytes, but many times slower.
   const rectangles = new Uint16Array(16 * set.count);
   const firstFace = new Float32Array(4 * set.count);
@@ -141,12 +167,25 @@ faces.mesh = (set, shared, look = {}) => {
   geometry.setAttribute("rectangle", keys);
   geometry.setAttribute("position", keys);  // three.js draws nothing without
   geometry.setAttribute("firstFace", new THREE.BufferAttribute(firstFace, 1));
-  const width = 4096;
-  const rows = Math.max(1, Math.ceil(set.values.length / width));
-  const values = new Uint8Array(width * rows);
-  values.set(set.values);
-  const captures = new Float32Array(set.captures.length > 0 ? width * rows : 1);
-  captures.set(set.captures);
+  geometry.boundingSphere = bounds;
+  return geometry;
+};
+
+/** In place of a texture of a set that has none. */
+const kNothing = faces.texture(new Uint8Array(1), 1, 1, THREE.RedFormat);
+
+/** A texture of one number a face, `width` a row. */
+const faceTexture = (numbers, width, type) => {
+  if (numbers.length === 0) return kNothing;
+  const rows = Math.ceil(numbers.length / width);
+  const texels = new numbers.constructor(width * rows);
+  texels.set(numbers);
+  return faces.texture(texels, width, rows, THREE.RedFormat, type);
+};
+
+/** A mesh of a set. `look`: {side, opacity, colour}; opaque sets are coloured by their values. */
+faces.mesh = (set, shared, look) => {
+  const width = Math.min(4096, Math.max(1, set.values.length));
   const opacity = look.opacity || 1;
   const material = new THREE.ShaderMaterial({
     vertexShader: kVertexShader,
@@ -155,16 +194,15 @@ faces.mesh = (set, shared, look = {}) => {
     transparent: opacity < 1,
     depthWrite: opacity === 1,
     uniforms: Object.assign({}, shared, {
-      values: {value: faces.texture(values, width, rows, THREE.RedFormat)},
-      captures: {value: faces.texture(captures, Math.min(width, captures.length),
-        Math.ceil(captures.length / width), THREE.RedFormat, THREE.FloatType)},
+      values: {value: faceTexture(set.values, width)},
+      captures: {value: faceTexture(Float32Array.from(set.captures), width, THREE.FloatType)},
       valuesWidth: {value: width},
       plainColour: {value: new THREE.Color(look.colour || 0)},
       opacity: {value: opacity},
     }),
   });
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.frustumCulled = false;  // three.js does not know where the vertices are
+  const mesh = new THREE.Mesh(set.geometry, material);
+  mesh.frustumCulled = !!set.geometry.boundingSphere;  // three.js cannot tell where vertices are
   return mesh;
 };
 
@@ -174,31 +212,11 @@ faces.forget = object => object.traverse(part => {
   const {material} = part;
   if (!material) return;
   for (const name of ["values", "captures"]) {  // the other textures are shared
-    if (material.uniforms && material.uniforms[name]) material.uniforms[name].value.dispose();
+    const texture = material.uniforms && material.uniforms[name] && material.uniforms[name].value;
+    if (texture && texture !== kNothing) texture.dispose();
   }
   material.dispose();
 });
-
-/** The box of a set without its outermost hundredths, metres: stray voxels count for nothing. */
-faces.usualBox = sets => {
-  const {resolution_m, key_of_origin} = page.data.map;
-  const keys = [[], [], []];
-  for (const set of sets) {
-    const step = Math.max(1, Math.floor(set.count / 20000));
-    for (let i = 0; i < set.count; i += step) {
-      for (let axis = 0; axis < 3; ++axis) keys[axis].push(set.rectangles[4 * i + axis]);
-    }
-  }
-  const box = new THREE.Box3();
-  if (keys[0].length === 0) return box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
-  keys.forEach((sorted, axis) => {
-    sorted.sort((a, b) => a - b);
-    const at = share => sorted[Math.round(share * (sorted.length - 1))];
-    box.min.setComponent(axis, (at(0.01) - key_of_origin) * resolution_m);
-    box.max.setComponent(axis, (at(0.99) + 1 - key_of_origin) * resolution_m);
-  });
-  return box;
-};
 
 /**
  * The face of a set that a ray meets first: {distance, value, centre_m}; null for none. `ray` is a

@@ -64,12 +64,13 @@
     scene.add(object);
     follow(name);
   };
+  const all = surface.create(shared);
+  for (const [name, group] of Object.entries(all.groups)) show(name, group);
   for (const box of document.querySelectorAll("[id^=show-]")) {
     box.addEventListener("change", () => follow(box.id.slice("show-".length)));
   }
 
   // The map, and a grid on the ground, for scale.
-  let sets = {};
   let box = new THREE.Box3();
   let ground = null;
   const showGround = mesh_m => {
@@ -88,19 +89,11 @@
       box.min.z - 0.01);
     scene.add(ground);
   };
-  const showMap = async () => {
+  const tellMap = () => {
     const {map} = page.data;
-    sets = {seen: await faces.unpack("seen"), backs: await faces.unpack("backs"),
-      frontier: await faces.unpack("frontier")};
     faces.setLattice(shared, map);
-    show("seen", faces.mesh(sets.seen, shared));
-    show("backs", faces.mesh(sets.backs, shared));
-    show("unknown", faces.mesh(sets.frontier, shared,
-      {side: THREE.BackSide, opacity: 0.45, colour: "#8d6bb8"}));
-    show("free", faces.mesh(sets.frontier, shared, {opacity: 0.3, colour: "#5aa5c8"}));
-    const isEmpty = sets.seen.count + sets.backs.count + sets.frontier.count === 0;
-    box = faces.usualBox(sets.seen.count + sets.backs.count > 0 ? [sets.seen, sets.backs]
-      : [sets.frontier]);
+    const isEmpty = ["seen", "backs", "frontier"].every(name => surface.count(all, name) === 0);
+    box = surface.usualBox(all);
     notice.textContent = "The map is empty: nothing is known.";
     notice.hidden = !isEmpty;
     const size_m = box.getSize(new THREE.Vector3());
@@ -119,11 +112,17 @@
     show("views", views.answer(answer, camera));
     views.tell(answer);
   };
-  const following = page.data.live && await live.first();
-  await showMap();
+  const following = !!page.data.live;
+  if (following) {
+    await live.first((bricks, isWhole) => surface.putBricks(all, bricks, isWhole));
+  } else {
+    surface.put(all, "all", {seen: await faces.unpack("seen"), backs: await faces.unpack("backs"),
+      frontier: await faces.unpack("frontier")});
+  }
+  tellMap();
   showAnswer();
   // A map without free space, or all of whose surfaces look outward, has backs alone.
-  if (!following && sets.seen.count < sets.backs.count / 20) page.element("show-backs").click();
+  if (!following && surface.count(all, "seen") < surface.count(all, "backs") / 20) page.element("show-backs").click();
   const voxels = page.data.voxel_gains && await gains.voxels();
   if (voxels) show("gains", voxels.mesh);
   const drive = page.data.episode && await episode.unpack();
@@ -181,8 +180,8 @@
     eye.near = Math.max(1e-3 * reach_m, 0.2 * resolution_m);
     eye.updateProjectionMatrix();
   };
-  measure();
   const first = () => {
+    measure();
     look(centre.clone().add(new THREE.Vector3(-0.75, -1.1, 1.25).multiplyScalar(1.05 * reach_m)), centre);
   };
   const above = () => look(centre.clone().add(new THREE.Vector3(0, -1e-3, 2.2).multiplyScalar(reach_m)), centre);
@@ -226,12 +225,7 @@
     const {clientX, clientY} = pointer;
     pointer = null;
     caster.setFromCamera({x: 2 * clientX / innerWidth - 1, y: 1 - 2 * clientY / innerHeight}, eye);
-    let best = null;
-    for (const name of ["seen", "backs"]) {
-      if (!shown[name].visible) continue;
-      const hit = faces.pick(sets[name], caster.ray, shared);
-      if (hit && (!best || hit.distance < best.distance)) best = hit;
-    }
+    const best = surface.pick(all, caster.ray);
     const [cube] = voxels && voxels.mesh.visible ? caster.intersectObject(voxels.mesh) : [];
     if (cube && !(best && best.distance < cube.distance)) {
       return page.showTip(voxels.tell(cube), clientX, clientY);
@@ -258,17 +252,24 @@
     let hasBeenMoved = false;  // by a person: the view is then theirs
     controls.addEventListener("start", () => { hasBeenMoved = true; });
     canvas.addEventListener("wheel", () => { hasBeenMoved = true; });
+    const keepInView = () => {
+      const [centreBefore, reachBefore_m] = [centre, reach_m];
+      measure();
+      const moved_m = centre.distanceTo(centreBefore) + Math.abs(reach_m - reachBefore_m);
+      if (!hasBeenMoved && moved_m > 0.1 * reachBefore_m) first();
+    };
     live.follow({
-      showMap: async () => {
-        await showMap();
+      putBricks: async (bricks, isWhole) => {
+        await surface.putBricks(all, bricks, isWhole);
+        tellMap();
         colourBy(document.querySelector("input[name=colour]:checked").value);
         cutAbove();
-        const [centreBefore, reachBefore_m] = [centre, reach_m];
-        measure();
-        const moved_m = centre.distanceTo(centreBefore) + Math.abs(reach_m - reachBefore_m);
-        if (!hasBeenMoved && moved_m > 0.1 * reachBefore_m) first();
+        keepInView();
       },
-      showAnswer,
+      showAnswer: () => {
+        showAnswer();
+        keepInView();
+      },
     });
   }
 

@@ -52,23 +52,66 @@ TEST_F(LivePageTest, KeepsTextsOnOneLine) {
               EndsWith("\n\ndata: b\r</script>\ufffd"));
 }
 
-TEST_F(LivePageTest, MakesAMapOnceForAllWhoAsk) {
-  LivePage seldom(world.sources(), std::chrono::hours(1));
-  const auto first = seldom.map();
-  EXPECT_EQ(seldom.map(), first);
-  const Json json = parse_json(*first, "map");
-  EXPECT_EQ(json["id"], "7-1");
-  EXPECT_EQ(json["map"]["occupied_voxels"], 200);
-  EXPECT_NE(json["blocks"]["seen"], "");
-  world.scan();
-  EXPECT_EQ(seldom.map(), first);  // it is too early for another
+/// What a reader of `since` is told.
+Json map_of(LivePage& page, const std::string& since = "") {
+  return parse_json(page.map(since).joined(), "map");
 }
 
-TEST_F(LivePageTest, MakesAnotherMapWhenThereIsANewerOne) {
-  LivePage often(world.sources(), std::chrono::milliseconds(0));
-  EXPECT_EQ(parse_json(*often.map(), "map")["id"], "7-1");
+TEST_F(LivePageTest, MakesAMapOnceForAllWhoAsk) {
+  LivePage seldom(world.sources(), std::chrono::hours(1));
+  const Json first = map_of(seldom);
+  EXPECT_EQ(first["id"], "7-1");
+  EXPECT_EQ(first["is_whole"], true);
+  EXPECT_EQ(first["map"]["occupied_voxels"], 200);
+  EXPECT_FALSE(first["bricks"].empty());
+  // All who ask share the bricks.
+  EXPECT_EQ(seldom.map().pieces()[1], seldom.map().pieces()[1]);
   world.scan();
-  EXPECT_TRUE(test::wait_until([&] { return parse_json(*often.map(), "map")["id"] == "7-2"; }));
+  EXPECT_EQ(map_of(seldom), first);  // it is too early for another
+}
+
+TEST_F(LivePageTest, TellsAReaderWhatItLacks) {
+  LivePage often(world.sources(), std::chrono::milliseconds(0));
+  const LivePage::Reader reader(often);
+  const Json first = map_of(often);
+  EXPECT_EQ(map_of(often, "7-1")["bricks"], Json::object());
+  world.scan();
+  Json next;
+  EXPECT_TRUE(test::wait_until([&] {
+    next = map_of(often, "7-1");
+    return next["id"] == "7-2";
+  }));
+  EXPECT_EQ(next["is_whole"], false);
+  EXPECT_FALSE(next["bricks"].empty());
+  EXPECT_LT(next["bricks"].size(), map_of(often)["bricks"].size());
+  EXPECT_EQ(map_of(often, "7-2")["bricks"], Json::object());
+}
+
+TEST_F(LivePageTest, TellsAllToAReaderOfAnythingElse) {
+  map_of(page);
+  for (const char* since :
+       {"", "6-1", "7-", "7-2", "7--1", "7-1x", "7-99999999999999999999", "1", "</script>"}) {
+    const Json all = map_of(page, since);
+    EXPECT_EQ(all["is_whole"], true) << since;
+    EXPECT_FALSE(all["bricks"].empty()) << since;
+  }
+}
+
+TEST_F(LivePageTest, KeepsAGridForReadersAlone) {
+  LivePage often(world.sources(), std::chrono::milliseconds(0));
+  const auto grid = [&] { return std::weak_ptr(world.store.published()->grid()); };
+  const std::weak_ptr<const VoxelGrid> first = grid();
+  map_of(often);
+  world.scan();
+  EXPECT_TRUE(first.expired());
+  const std::weak_ptr<const VoxelGrid> second = grid();
+  {
+    const LivePage::Reader reader(often);
+    EXPECT_TRUE(test::wait_until([&] { return map_of(often)["id"] == "7-2"; }));
+    world.scan();
+    EXPECT_FALSE(second.expired());
+  }
+  EXPECT_TRUE(second.expired());
 }
 
 class EventStreamTest : public LivePageTest {

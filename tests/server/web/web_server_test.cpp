@@ -65,7 +65,11 @@ TEST_F(WebServerTest, ShowsThePageAndItsMap) {
               HasSubstr("\r\nContent-Security-Policy: default-src 'none'; script-src 'sha256-"));
   EXPECT_THAT(page, HasSubstr("frame-ancestors 'none'\r\n"));
   EXPECT_THAT(page, EndsWith("</html>\n"));
-  EXPECT_THAT(get("/map"), HasSubstr("\r\n\r\n{\"map\":{\"name\":\"small\""));
+  const std::string map = get("/map");
+  EXPECT_THAT(map,
+              HasSubstr("\r\n\r\n{\"id\":\"7-1\",\"is_whole\":true,\"map\":{\"name\":\"small\""));
+  EXPECT_THAT(map, EndsWith("\"}}"));
+  EXPECT_THAT(get("/map?since=7-1"), EndsWith("\"bricks\":{}}"));
 }
 
 TEST_F(WebServerTest, TellsReadersOfChanges) {
