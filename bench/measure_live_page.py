@@ -33,6 +33,10 @@ class Served:
         self.address = self._process.stdout.readline().split()[-1]
         self.web = self._process.stdout.readline().split("//")[-1].strip("/\n")
 
+    @property
+    def pid(self) -> int:
+        return self._process.pid
+
     def __enter__(self):
         return self
 
@@ -48,7 +52,8 @@ class Reader(multiprocessing.Process):
     def __init__(self, web: str):
         super().__init__(daemon=True)
         self.web = web
-        self.events, self.maps, self.map_bytes = (multiprocessing.Value("q") for _ in range(3))
+        self.events, self.maps, self.first_bytes, self.bytes = (
+            multiprocessing.Value("q") for _ in range(4))
         self.start()
 
     def run(self) -> None:
@@ -68,7 +73,9 @@ class Reader(multiprocessing.Process):
         page = http.client.HTTPConnection(self.web)
         page.request("GET", f"/map?since={since}")
         answer = page.getresponse().read()
-        self.map_bytes.value = len(answer)
+        if self.maps.value == 0:
+            self.first_bytes.value = len(answer)
+        self.bytes.value += len(answer)
         self.maps.value += 1
         return json.loads(answer)["id"]
 
@@ -123,7 +130,7 @@ def main(nbvopt: str, rounds: int = 60, readers: int = 4) -> None:
             print(f"| {name[:-3]} | {a:.1f} | {b:.1f} | {b / a:.2f} |")
         print(f"\neach reader: {statistics.mean(page.events.value for page in pages):.0f} events, "
               f"{statistics.mean(page.maps.value for page in pages):.0f} maps, "
-              f"the last of {pages[0].map_bytes.value / 1e3:.0f} kB")
+              f"{pages[0].bytes.value / rounds / 1e3:.0f} kB a scan")
         for page in pages:
             page.terminate()
         plans, events = burst(watched, 10.0)
