@@ -186,7 +186,7 @@ UncertaintyMap scattered_map() {
 }
 
 TEST(MapStoreConcurrency, AScanDoesNotWaitForACopy) {
-  MapStore store(test::small_robot(), {}, scattered_map(), 1);
+  MapStore store = make_store();
   for (int round = 0; round < 2; ++round) {
     store.replace(scattered_map());
     std::atomic<bool> has_begun{false};
