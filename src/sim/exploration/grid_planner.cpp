@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace nbvopt {
 namespace {
@@ -24,6 +25,8 @@ constexpr std::array<Step, 8> kSteps{{{1, 0, 1.0},
                                       {1, -1, std::numbers::sqrt2}}};
 constexpr int kStraightSteps = 4;
 
+constexpr int kUnknown = -1;
+
 Cell offset(int step) {
   const Step& s = kSteps[static_cast<std::size_t>(step)];
   return {s.x, s.y};
@@ -37,9 +40,9 @@ GridPlanner::GridPlanner(const DriveCosts& costs, const Eigen::Vector2d& start_m
   const Cell size = box.sizes() + Cell::Ones();
   nodes_.assign(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()),
                 {std::numeric_limits<float>::infinity(), 0, false});
-  const int start = number(costs.grid().cell_at(start_map_m));
-  nodes_[static_cast<std::size_t>(start)].cost_m = 0.0F;
-  front_.emplace(0.0F, start);
+  start_ = number(costs.grid().cell_at(start_map_m));
+  nodes_[static_cast<std::size_t>(start_)].cost_m = 0.0F;
+  front_.emplace(0.0F, start_);
 }
 
 int GridPlanner::number(const Cell& cell) const {
@@ -50,6 +53,14 @@ int GridPlanner::number(const Cell& cell) const {
 Cell GridPlanner::cell(int number) const {
   const int width = box_.sizes().x() + 1;
   return box_.min() + Cell(number % width, number / width);
+}
+
+Eigen::Vector2d GridPlanner::point_map_m(int number) const {
+  return number == start_ ? start_map_m_ : costs_.grid().centre_map_m(cell(number));
+}
+
+int GridPlanner::before(int number) const {
+  return this->number(cell(number) - offset(nodes_[static_cast<std::size_t>(number)].came_by));
 }
 
 std::optional<double> GridPlanner::cost_m(const Cell& goal) {
@@ -101,36 +112,43 @@ std::optional<Path> GridPlanner::path(const Eigen::Vector2d& goal_map_m) {
   const Cell goal = costs_.grid().cell_at(goal_map_m);
   if (!cost_m(goal)) return std::nullopt;
   std::vector<Eigen::Vector2d> points{goal_map_m};
-  std::vector<double> costs_m;
-  const Cell start = costs_.grid().cell_at(start_map_m_);
-  for (Cell at = goal; at != start;) {
-    const Node& node = nodes_[static_cast<std::size_t>(number(at))];
-    costs_m.push_back(node.cost_m);
-    at -= offset(node.came_by);
-    points.push_back(at == start ? start_map_m_ : costs_.grid().centre_map_m(at));
+  if (const int last = number(goal); last != start_) {
+    for (int at = corner_before(last, goal_map_m); at != start_; at = corner_before(at)) {
+      points.push_back(point_map_m(at));
+    }
+    points.push_back(start_map_m_);
   }
-  costs_m.push_back(0.0);
   std::ranges::reverse(points);
-  std::ranges::reverse(costs_m);
-  return Path(pull_straight(points, costs_m));
+  return Path(std::move(points));
 }
 
-std::vector<Eigen::Vector2d> GridPlanner::pull_straight(const std::vector<Eigen::Vector2d>& points,
-                                                        const std::vector<double>& costs_m) const {
+int GridPlanner::corner_before(int number) {
+  corners_.resize(nodes_.size(), kUnknown);
+  std::vector<int> unknown;
+  for (int at = number; corners_[static_cast<std::size_t>(at)] == kUnknown && at != start_;) {
+    unknown.push_back(at);
+    at = before(at);
+  }
+  for (; !unknown.empty(); unknown.pop_back()) {
+    const int at = unknown.back();
+    corners_[static_cast<std::size_t>(at)] = corner_before(at, point_map_m(at));
+  }
+  return corners_[static_cast<std::size_t>(number)];
+}
+
+int GridPlanner::corner_before(int number, const Eigen::Vector2d& point_map_m) {
   // A straight piece may cost a cell more than the steps that it replaces: fewer corners are worth
   // it, and start and goal are not in the middle of their cells.
   const double bonus_m = costs_.grid().cell_m();
-  std::vector<Eigen::Vector2d> corners{points.front()};
-  for (std::size_t from = 0; from + 1 < points.size();) {
-    std::size_t to = from + 1;
-    while (to + 1 < points.size() && costs_.line_cost_m(points[from], points[to + 1]) <=
-                                         costs_m[to + 1] - costs_m[from] + bonus_m) {
-      ++to;
-    }
-    corners.push_back(points[to]);
-    from = to;
-  }
-  return corners;
+  const int previous = before(number);
+  if (previous == start_) return start_;
+  const int corner = corner_before(previous);
+  const auto cost_m = [&](int node) {
+    return double{nodes_[static_cast<std::size_t>(node)].cost_m};
+  };
+  const bool is_straight = costs_.line_cost_m(this->point_map_m(corner), point_map_m) <=
+                           cost_m(number) - cost_m(corner) + bonus_m;
+  return is_straight ? corner : previous;
 }
 
 }  // namespace nbvopt

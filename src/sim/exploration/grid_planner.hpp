@@ -38,15 +38,24 @@ class GridPlanner {
 
   int number(const Cell& cell) const;
   Cell cell(int number) const;
+  Eigen::Vector2d point_map_m(int number) const;
+  int before(int number) const;
   void spread(int from);
   void relax(int from, int step);
-  std::vector<Eigen::Vector2d> pull_straight(const std::vector<Eigen::Vector2d>& points,
-                                             const std::vector<double>& costs_m) const;
+
+  /// Where the last straight piece of the way to a node begins. Ways share what they begin with, so
+  /// that each node of the tree that they make is pulled straight once.
+  int corner_before(int number);
+
+  /// The same for a point in the node's cell.
+  int corner_before(int number, const Eigen::Vector2d& point_map_m);
 
   const DriveCosts& costs_;
   Eigen::Vector2d start_map_m_;
   Eigen::AlignedBox2i box_;
+  int start_ = 0;
   std::vector<Node> nodes_;
+  std::vector<int> corners_;  ///< corner_before() each node, once that is known; else kUnknown
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
 };
 

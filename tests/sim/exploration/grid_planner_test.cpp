@@ -118,6 +118,25 @@ TEST(GridPlanner, DoesNotSlipBetweenCellsThatMeetAtACorner) {
   EXPECT_FALSE(GridPlanner(costs, {0.5, 0.5}, grid.bounds()).path({1.5, 1.5}));
 }
 
+TEST_F(GridPlannerTest, WaysDoNotDependOnThoseBefore) {
+  wall({3.0, 0.0}, {3.0, 2.5});
+  wall({1.5, 1.5}, {1.5, 4.0});
+  GridPlanner shared = planner({1.013, 1.027});
+  int ways = 0;
+  for (double y_m = 3.9; y_m > 0.0; y_m -= 0.17) {
+    for (double x_m = 0.03; x_m < 6.0; x_m += 0.19) {
+      const auto path = shared.path({x_m, y_m});
+      const auto alone = planner({1.013, 1.027}).path({x_m, y_m});
+      ASSERT_EQ(path.has_value(), alone.has_value());
+      if (!path) continue;
+      ++ways;
+      EXPECT_EQ(path->rest(0.0), alone->rest(0.0)) << x_m << ' ' << y_m;
+      EXPECT_EQ(path->point_at(path->length_m()), Eigen::Vector2d(x_m, y_m));
+    }
+  }
+  EXPECT_GT(ways, 500);
+}
+
 TEST_F(GridPlannerTest, CostsDoNotDependOnTheOrderOfQuestions) {
   wall({3.0, 0.0}, {3.0, 2.5});
   const Cell near = grid_.cell_at({2.0, 1.0});
