@@ -24,6 +24,9 @@ void PlaceGains::update(std::span<const Place> places, const EpisodeKnowledge& k
                                      {position.x(), position.y(), floor_map_m});
   });
   for (std::size_t i = 0; i < changed.size(); ++i) {
+    for (CubeGain& part : found[i]) {
+      part.cube = numbers_.try_emplace(part.cube, numbers_.size()).first->second;
+    }
     gains_.insert_or_assign(
         changed[i]->square,
         Known{changed[i]->position_map_m, trajectory.points().size(), std::move(found[i])});

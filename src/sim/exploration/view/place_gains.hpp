@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "nbvopt/sim/trajectory.hpp"
@@ -23,7 +25,7 @@ class PlaceGains {
   void update(std::span<const Place> places, const EpisodeKnowledge& known,
               const Trajectory& trajectory);
 
-  /// Of a place that was among those of the last update.
+  /// Of a place that was among those of the last update. Cubes are named by numbers from 0 on.
   const PlaceGain& of(const Place& place) const { return gains_.at(place.square).gain; }
 
  private:
@@ -37,6 +39,7 @@ class PlaceGains {
 
   PlacePanorama panorama_;
   double reach_m_;
+  std::unordered_map<std::uint64_t, std::uint64_t> numbers_;  ///< of the panorama's cubes
   std::map<Cell, Known, SquareOrder> gains_;
 };
 

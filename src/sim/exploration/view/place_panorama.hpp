@@ -26,7 +26,7 @@ struct CubeGain {
   double information;
 };
 
-/// Sorted by cube.
+/// Each cube once.
 using PlaceGain = std::vector<CubeGain>;
 
 /// Casts panoramas. Const and safe to share between threads.

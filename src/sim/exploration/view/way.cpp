@@ -1,20 +1,23 @@
 #include "sim/exploration/view/way.hpp"
 
-#include <unordered_map>
+#include <vector>
 
 namespace nbvopt {
 
 double information_along(std::span<const PlaceGain* const> places) {
-  thread_local std::unordered_map<std::uint64_t, double> most;  // by cube; only looked up
-  most.clear();
+  thread_local std::vector<double> most;  // by cube; all 0 between calls
   double information = 0.0;
   for (const PlaceGain* place : places) {
     for (const CubeGain& gain : *place) {
+      if (gain.cube >= most.size()) most.resize(2 * gain.cube + 1);
       double& best = most[gain.cube];
       if (gain.information <= best) continue;
       information += gain.information - best;
       best = gain.information;
     }
+  }
+  for (const PlaceGain* place : places) {
+    for (const CubeGain& gain : *place) most[gain.cube] = 0.0;
   }
   return information;
 }

@@ -16,7 +16,8 @@ struct Way {
 };
 
 /// What ways past these places bring: of every cube of space the most that one of them sees there,
-/// since what was seen from one is not seen anew from the next.
+/// since what was seen from one is not seen anew from the next. Cubes are named by small numbers,
+/// as PlaceGains does it.
 double information_along(std::span<const PlaceGain* const> places);
 
 /// What a way brings a second of driving and of looking around where it ends.
