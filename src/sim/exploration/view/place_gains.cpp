@@ -33,11 +33,12 @@ void PlaceGains::update(std::span<const Place> places, const EpisodeKnowledge& k
   }
 }
 
-bool PlaceGains::is_up_to_date(const Place& place, const Trajectory& trajectory) const {
+bool PlaceGains::is_up_to_date(const Place& place, const Trajectory& trajectory) {
   const auto known = gains_.find(place.square);
   if (known == gains_.end() || known->second.position_map_m != place.position_map_m) return false;
   // The last point of then is where the camera may have looked from since.
   const auto since = std::span(trajectory.points()).subspan(known->second.points - 1);
+  known->second.points = trajectory.points().size();
   return std::ranges::none_of(since, [&](const TrajectoryPoint& point) {
     return (Eigen::Vector2d(point.x_m, point.y_m) - place.position_map_m).norm() < reach_m_;
   });

@@ -31,11 +31,12 @@ class PlaceGains {
  private:
   struct Known {
     Eigen::Vector2d position_map_m;
-    std::size_t points;  ///< of the trajectory when it was looked at
+    std::size_t points;  ///< of the trajectory that this takes account of
     PlaceGain gain;
   };
 
-  bool is_up_to_date(const Place& place, const Trajectory& trajectory) const;
+  /// Looks at the points of the trajectory that are new since it was asked last.
+  bool is_up_to_date(const Place& place, const Trajectory& trajectory);
 
   PlacePanorama panorama_;
   double reach_m_;
