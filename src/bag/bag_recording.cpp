@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kCloud = "sensor_msgs/PointCloud2";
 constexpr const char* kImage = "sensor_msgs/Image";
+constexpr const char* kCompressedImage = "sensor_msgs/CompressedImage";
 constexpr const char* kCameraInfo = "sensor_msgs/CameraInfo";
 
 bool is_tf(const std::string& type) {
@@ -26,10 +27,10 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// The topic beside another, as drivers name it: /camera/depth/image_raw,
-/// /camera/depth/camera_info.
-std::string camera_info_beside(const std::string& image_topic) {
-  return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
+/// Of the images of a topic, whose transport may have added its own name to it.
+std::string camera_info_topic(const std::string& image_topic, const std::string& type) {
+  return camera_info_beside(type == kCompressedImage ? image_topic.substr(0, image_topic.rfind('/'))
+                                                     : image_topic);
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ class BagRecording::Survey {
       }
     } else if (connection.type == kCameraInfo) {
       cameras_.emplace(connection.topic, parse_camera_info(message));  // the first: it stays
-    } else if (connection.type == kCloud || connection.type == kImage) {
+    } else if (connection.type == kCloud || connection.type == kImage ||
+               connection.type == kCompressedImage) {
       take_frame(connection, message, where);
     }
   }
@@ -74,7 +76,7 @@ class BagRecording::Survey {
     }
     if (topics_.empty()) {
       throw InputError(bag + ": has no topic of " + std::string(kCloud) + " or of depth images (" +
-                       kImage + ")" +
+                       kImage + ", " + kCompressedImage + ")" +
                        (encodings_.empty() ? ""
                                            : ", its images are " +
                                                  joined({encodings_.begin(), encodings_.end()})));
@@ -87,20 +89,32 @@ class BagRecording::Survey {
                      "', but on " + joined(list));
   }
 
-  DepthImageOptions depth_image(const std::string& bag, const std::string& image_topic) const {
+  /// That of the camera, or nothing where its intrinsics are given. `type` is that of the images.
+  std::optional<CameraInfoMessage> camera_info(const std::string& bag, const std::string& topic,
+                                               const std::string& type) const {
+    if (options_.fx_fy_cx_cy_px) return std::nullopt;
+    const std::string& named = options_.camera_info_topic;
+    const std::string looked_for = named.empty() ? camera_info_topic(topic, type) : named;
+    const auto found = cameras_.find(looked_for);
+    if (found != cameras_.end()) return found->second;
+    if (named.empty() && cameras_.size() == 1) return cameras_.begin()->second;
+    std::vector<std::string> list;
+    for (const auto& [camera, unused] : cameras_) list.push_back(camera);
+    throw InputError(
+        bag + ": has no camera_info on '" + looked_for + "'" +
+        (list.empty() ? ", give the camera's intrinsics" : ", but on " + joined(list)));
+  }
+
+  DepthImageOptions depth_image(const std::optional<CameraInfoMessage>& info) const {
     DepthImageOptions image;
-    if (options_.fx_fy_cx_cy_px) {
+    if (info) {
+      image = depth_image_options(*info);
+    } else {
       const auto [fx, fy, cx, cy] = *options_.fx_fy_cx_cy_px;
       image.fx_px = fx;
       image.fy_px = fy;
       image.cx_px = cx;
       image.cy_px = cy;
-    } else {
-      const CameraInfoMessage& camera = camera_of(bag, image_topic);
-      image.fx_px = camera.fx_px;
-      image.fy_px = camera.fy_px;
-      image.cx_px = camera.cx_px;
-      image.cy_px = camera.cy_px;
     }
     image.depth_scale_m = options_.depth_scale_m.value_or(image.depth_scale_m);
     image.largest_value = options_.largest_value.value_or(image.largest_value);
@@ -113,29 +127,18 @@ class BagRecording::Survey {
  private:
   void take_frame(const BagConnection& connection, std::string_view message,
                   const BagPosition& where) {
-    if (connection.type == kImage) {
-      const ImageMessage image = parse_image(message);
-      if (!is_depth_encoding(image.encoding) && connection.topic != options_.topic) {
-        encodings_.insert("'" + image.encoding + "'");
+    if (connection.type != kCloud) {
+      const std::string encoding = connection.type == kImage
+                                       ? parse_image(message).encoding
+                                       : encoding_of(parse_compressed_image(message));
+      if (!is_depth_encoding(encoding) && connection.topic != options_.topic) {
+        encodings_.insert("'" + encoding + "'");
         return;
       }
     }
     Topic& topic = topics_[connection.topic];
     topic.type = connection.type;
     topic.frames.push_back({where, parse_header(message)});
-  }
-
-  const CameraInfoMessage& camera_of(const std::string& bag, const std::string& image_topic) const {
-    const std::string& named = options_.camera_info_topic;
-    const auto found = cameras_.find(named.empty() ? camera_info_beside(image_topic) : named);
-    if (found != cameras_.end()) return found->second;
-    if (named.empty() && cameras_.size() == 1) return cameras_.begin()->second;
-    std::vector<std::string> list;
-    for (const auto& [topic, unused] : cameras_) list.push_back(topic);
-    throw InputError(
-        bag + ": has no camera_info on '" +
-        (named.empty() ? camera_info_beside(image_topic) : named) + "'" +
-        (list.empty() ? ", give the camera's intrinsics" : ", but on " + joined(list)));
   }
 
   const BagOptions& options_;
@@ -161,7 +164,10 @@ BagRecording::BagRecording(const std::filesystem::path& path, const BagOptions& 
   auto& [topic, found] = survey.chosen(name_);
   summary_.topic = topic;
   summary_.type = found.type;
-  if (found.type == kImage) depth_image_ = survey.depth_image(name_, topic);
+  if (found.type != kCloud) {
+    camera_info_ = survey.camera_info(name_, topic, found.type);
+    depth_image_ = survey.depth_image(camera_info_);
+  }
 
   const TfHistory& tf = survey.tf();
   summary_.sensor_frame = found.frames.front().header.frame;
@@ -194,10 +200,14 @@ PosedScan BagRecording::read(std::uint64_t frame) {
     const std::string_view message = bag_.message_at(found.where);
     PosedScan posed{.scan = {}, .T_map_sensor = found.T_fixed_frame};
     if (depth_image_) {
-      posed.scan = scan_of(parse_image(message), *depth_image_);
+      std::vector<std::uint8_t> bytes;
+      const ImageMessage image = summary_.type == kImage
+                                     ? parse_image(message)
+                                     : unpack(parse_compressed_image(message), bytes);
+      if (camera_info_) check_image_size(image, *camera_info_);
+      posed.scan = scan_of(image, *depth_image_);
     } else {
-      MessageHeader header;
-      posed.scan = scan_of(parse_point_cloud(message, header));
+      posed.scan = scan_of(parse_point_cloud(message));
       posed.T_map_sensor = found.T_fixed_frame * to_optical_axes(axes_, posed.scan);
     }
     return posed;

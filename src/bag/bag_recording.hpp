@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bag/bag_file.hpp"
+#include "map/image_message.hpp"
 #include "map/recording/frame_source.hpp"
 
 namespace nbvopt {
@@ -57,6 +58,7 @@ class BagRecording : public FrameSource {
   BagFile bag_;
   BagSummary summary_;
   std::optional<DepthImageOptions> depth_image_;  ///< none: frames are clouds
+  std::optional<CameraInfoMessage> camera_info_;  ///< of the images; none: intrinsics were given
   PoseAxes axes_ = PoseAxes::optical;
   std::vector<Frame> frames_;
 };

@@ -1,13 +1,8 @@
 #include "bag/ros_messages.hpp"
 
 #include <array>
-#include <bit>
-#include <cmath>
-#include <limits>
-#include <optional>
 
 #include "map/byte_reader.hpp"
-#include "map/point_records.hpp"
 #include "nbvopt/core/error.hpp"
 
 namespace nbvopt {
@@ -30,6 +25,10 @@ class Bytes {
   }
   std::uint32_t count() { return number<std::uint32_t>(); }
   std::string_view sized() { return take(count()); }  // of a string, or an array of bytes
+  std::span<const std::uint8_t> sized_data() {
+    const std::string_view data = sized();
+    return {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()};
+  }
   std::string text() { return std::string(sized()); }
 
   /// How many there are of what takes so many bytes at least.
@@ -57,23 +56,6 @@ std::array<double, N> take_doubles(Bytes& bytes) {
   return numbers;
 }
 
-void append_metre_row(const char* pixels, std::uint32_t width, std::uint32_t row, std::endian order,
-                      const DepthImageOptions& options, Scan& scan) {
-  for (std::uint32_t column = 0; column < width; ++column, pixels += sizeof(float)) {
-    const double depth_m = decoded_number(pixels, NumberType::f32, order);
-    const bool is_clear = depth_m == std::numeric_limits<double>::infinity();
-    if (!std::isfinite(depth_m) && !is_clear) continue;
-    if (depth_m == 0.0) continue;  // as many drivers have it
-    const Eigen::Vector3d direction((column - options.cx_px) / options.fx_px,
-                                    (row - options.cy_px) / options.fy_px, 1.0);
-    if (is_clear) {
-      scan.no_returns.emplace_back(direction.cast<float>());
-    } else {
-      scan.points_m.emplace_back((direction * depth_m).cast<float>());
-    }
-  }
-}
-
 }  // namespace
 
 MessageHeader parse_header(std::string_view message) {
@@ -83,39 +65,37 @@ MessageHeader parse_header(std::string_view message) {
 
 CameraInfoMessage parse_camera_info(std::string_view message) {
   Bytes bytes(message);
+  take_header(bytes);
   CameraInfoMessage info;
-  info.header = take_header(bytes);
   info.height = bytes.count();
   info.width = bytes.count();
   bytes.sized();                                                // the distortion's model
   bytes.take(bytes.count_of(sizeof(double)) * sizeof(double));  // its parameters
-  const auto K = take_doubles<9>(bytes);
+  info.K = take_doubles<9>(bytes);
   take_doubles<9>(bytes);  // the rectifying rotation
-  const auto P = take_doubles<12>(bytes);
-  if (P[0] != 0.0) {
-    info.fx_px = P[0];
-    info.cx_px = P[2];
-    info.fy_px = P[5];
-    info.cy_px = P[6];
-  } else {
-    info.fx_px = K[0];
-    info.cx_px = K[2];
-    info.fy_px = K[4];
-    info.cy_px = K[5];
-  }
+  info.P = take_doubles<12>(bytes);
   return info;
 }
 
 ImageMessage parse_image(std::string_view message) {
   Bytes bytes(message);
+  take_header(bytes);
   ImageMessage image;
-  image.header = take_header(bytes);
   image.height = bytes.count();
   image.width = bytes.count();
   image.encoding = bytes.text();
   image.is_bigendian = bytes.number<std::uint8_t>() != 0;
   image.step = bytes.count();
-  image.data = bytes.sized();
+  image.data = bytes.sized_data();
+  return image;
+}
+
+CompressedImageMessage parse_compressed_image(std::string_view message) {
+  Bytes bytes(message);
+  take_header(bytes);
+  CompressedImageMessage image;
+  image.format = bytes.text();
+  image.data = bytes.sized_data();
   return image;
 }
 
@@ -139,9 +119,9 @@ std::vector<TransformMessage> parse_transforms(std::string_view message) {
   return transforms;
 }
 
-PointCloudMessage parse_point_cloud(std::string_view message, MessageHeader& header) {
+PointCloudMessage parse_point_cloud(std::string_view message) {
   Bytes bytes(message);
-  header = take_header(bytes);
+  take_header(bytes);
   PointCloudMessage cloud;
   cloud.height = bytes.count();
   cloud.width = bytes.count();
@@ -157,49 +137,8 @@ PointCloudMessage parse_point_cloud(std::string_view message, MessageHeader& hea
   cloud.is_bigendian = bytes.number<std::uint8_t>() != 0;
   cloud.point_step = bytes.count();
   cloud.row_step = bytes.count();
-  const std::string_view data = bytes.sized();
-  cloud.data = {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()};
+  cloud.data = bytes.sized_data();
   return cloud;
-}
-
-bool is_depth_encoding(const std::string& encoding) {
-  return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
-}
-
-Scan scan_of(const ImageMessage& image, const DepthImageOptions& options) {
-  if (!is_depth_encoding(image.encoding)) {
-    throw InputError("an image is '" + image.encoding +
-                     "', depths are 16UC1 or mono16 (millimetres) or 32FC1 (metres)");
-  }
-  const bool is_metres = image.encoding == "32FC1";
-  const std::uint64_t row_bytes =
-      std::uint64_t{image.width} * (is_metres ? sizeof(float) : sizeof(std::uint16_t));
-  const bool is_whole =
-      image.height == 0 || image.width == 0 ||
-      (image.step >= row_bytes &&
-       image.data.size() >= std::uint64_t{image.height - 1} * image.step + row_bytes);
-  if (!is_whole) {
-    throw InputError("an image of " + std::to_string(image.width) + " x " +
-                     std::to_string(image.height) + " pixels has " +
-                     std::to_string(image.data.size()) + " bytes of data");
-  }
-  Scan scan;
-  if (image.width == 0) return scan;
-  const std::endian order = image.is_bigendian ? std::endian::big : std::endian::little;
-  std::vector<std::uint16_t> depths(is_metres ? 0 : image.width);
-  for (std::uint32_t row = 0; row < image.height; ++row) {
-    const char* pixels = image.data.data() + std::uint64_t{row} * image.step;
-    if (is_metres) {
-      append_metre_row(pixels, image.width, row, order, options, scan);
-      continue;
-    }
-    for (std::uint16_t& depth : depths) {
-      depth = static_cast<std::uint16_t>(decoded_number(pixels, NumberType::u16, order));
-      pixels += sizeof(std::uint16_t);
-    }
-    append_depth_row(depths, row, options, scan);
-  }
-  return scan;
 }
 
 }  // namespace nbvopt

@@ -1,3 +1,5 @@
+#include "map/depth_png.hpp"
+
 #include <png.h>
 
 #include <array>
@@ -91,19 +93,25 @@ class PngRows {
 
 }  // namespace
 
-Scan read_depth_png(std::istream& in, const std::string& name, const DepthImageOptions& options) {
-  options.validate();
+void for_each_png_row(std::istream& in, const std::string& name, const VisitDepthRow& visit) {
   PngRows image(in);
   const auto refuse = [&name](const std::string& what) { throw InputError(name + ": " + what); };
   if (!image.read_header()) refuse(std::string("the PNG cannot be read: ") + image.message());
   if (!image.is_depth_image()) {
     refuse("this PNG is no depth image: 16 bits of grey a pixel, not interlaced, are needed");
   }
-  Scan scan;
-  for (std::uint32_t v = 0; v < image.height(); ++v) {
+  for (std::uint32_t row = 0; row < image.height(); ++row) {
     if (!image.read_row()) refuse(std::string("the PNG cannot be read: ") + image.message());
-    append_depth_row(image.row(), v, options, scan);
+    visit(row, image.row());
   }
+}
+
+Scan read_depth_png(std::istream& in, const std::string& name, const DepthImageOptions& options) {
+  options.validate();
+  Scan scan;
+  for_each_png_row(in, name, [&](std::uint32_t row, std::span<const std::uint16_t> pixels) {
+    append_depth_row(pixels, row, options, scan);
+  });
   return scan;
 }
 

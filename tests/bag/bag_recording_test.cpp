@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include "bag/made_bag.hpp"
 #include "map/recording/map_builder.hpp"
@@ -22,6 +23,8 @@ constexpr int kFrames = 4;
 constexpr double kVoxel_m = 0.05;
 constexpr const char* kCloud = "sensor_msgs/PointCloud2";
 constexpr const char* kImage = "sensor_msgs/Image";
+constexpr const char* kCompressedImage = "sensor_msgs/CompressedImage";
+constexpr const char* kCameraInfo = "sensor_msgs/CameraInfo";
 constexpr const char* kTf = "tf2_msgs/TFMessage";
 
 Transform T_base_camera() {
@@ -54,6 +57,41 @@ std::vector<std::uint16_t> depths() {
   pixels[3] = 0;
   pixels[7] = 65535;
   return pixels;
+}
+
+/// The camera of these images, 4 x 3 pixels.
+constexpr DepthImageOptions kCamera{.fx_px = 5.0, .fy_px = 5.0, .cx_px = 1.5, .cy_px = 1.0};
+
+std::string camera_info() {
+  return test::camera_info_message(10.5, "camera_optical", 5.0, 1.5, 1.0);
+}
+
+Scan scan_of_depths() {
+  Scan scan;
+  for (std::uint32_t row = 0; row < 3; ++row) {
+    const auto pixels = depths();
+    append_depth_row(std::span(pixels).subspan(4 * row, 4), row, kCamera, scan);
+  }
+  return scan;
+}
+
+/// 4 x 3 pixels.
+std::string png_of(const std::vector<std::uint16_t>& pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 4;
+  image.height = 3;
+  image.format = PNG_FORMAT_LINEAR_Y;
+  png_alloc_size_t bytes = 0;
+  png_image_write_to_memory(&image, nullptr, &bytes, 0, pixels.data(), 0, nullptr);
+  std::string png(bytes, '\0');
+  png_image_write_to_memory(&image, png.data(), &bytes, 0, pixels.data(), 0, nullptr);
+  return png;
+}
+
+/// What compressedDepth puts before a PNG.
+std::string quantisation(float a, float b) {
+  return test::bytes_of(std::uint32_t{0}) + test::bytes_of(a) + test::bytes_of(b);
 }
 
 class BagRecordingTest : public ::testing::Test {
@@ -121,12 +159,7 @@ TEST_F(BagRecordingTest, TurnsCloudsOfBodyAxes) {
 }
 
 TEST_F(BagRecordingTest, ReadsDepthImages) {
-  DepthImageOptions camera{.fx_px = 5.0, .fy_px = 5.0, .cx_px = 1.5, .cy_px = 1.0};
-  Scan expected;
-  for (std::uint32_t row = 0; row < 3; ++row) {
-    const auto pixels = depths();
-    append_depth_row(std::span(pixels).subspan(4 * row, 4), row, camera, expected);
-  }
+  const Scan expected = scan_of_depths();
   ASSERT_EQ(expected.no_returns.size(), 1U);
   for (const bool is_metres : {false, true}) {
     test::MadeBag bag = drive();
@@ -139,8 +172,7 @@ TEST_F(BagRecordingTest, ReadsDepthImages) {
     }
     for (int i = 0; i < kFrames; ++i) {
       const double time_s = 10.5 + i;
-      bag.add("/depth/camera_info", "sensor_msgs/CameraInfo",
-              test::camera_info_message(time_s, "camera_optical", 5.0, 1.5, 1.0));
+      bag.add("/depth/camera_info", kCameraInfo, camera_info());
       bag.add(
           "/depth/image", kImage,
           test::image_message(time_s, "camera_optical", 4, 3, is_metres ? "32FC1" : "16UC1", data));
@@ -149,6 +181,77 @@ TEST_F(BagRecordingTest, ReadsDepthImages) {
     }
     expect_map(recording(bag), [&](int) { return expected; });
   }
+}
+
+TEST_F(BagRecordingTest, ReadsCompressedDepthImages) {
+  const std::string header = quantisation(0.0F, 0.0F);  // not looked at
+  for (const auto& [format, start] :
+       {std::pair{"16UC1; compressedDepth", header}, {"16UC1; png compressed ", std::string()}}) {
+    test::MadeBag bag = drive();
+    bag.add("/depth/camera_info", kCameraInfo, camera_info());
+    for (int i = 0; i < kFrames; ++i) {
+      bag.add("/depth/image/packed", kCompressedImage,
+              test::compressed_image_message(10.5 + i, "camera_optical", format,
+                                             start + png_of(depths())));
+      bag.add("/colour/image/compressed", kCompressedImage,
+              test::compressed_image_message(10.5 + i, "camera_optical",
+                                             "rgb8; jpeg compressed bgr8", "\xFF\xD8"));
+    }
+    expect_map(recording(bag), [](int) { return scan_of_depths(); });
+  }
+}
+
+/// a = q (q + 1) with q = 100, and b such that 10 m are 1: as the transport chooses them.
+TEST_F(BagRecordingTest, ReadsCompressedMetres) {
+  const std::vector<std::uint16_t> numbers{9091, 7071, 4041, 0, 3031, 1516,
+                                           1011, 9091, 1,    0, 4041, 1516};
+  const std::vector<float> depths_m{1.0F, 1.25F, 2.0F,  0.0F, 2.5F, 4.0F,
+                                    5.0F, 1.0F,  10.0F, 0.0F, 2.0F, 4.0F};
+  test::MadeBag bag = drive();
+  bag.add("/depth/camera_info", kCameraInfo, camera_info());
+  for (int i = 0; i < kFrames; ++i) {
+    bag.add("/depth/image/compressedDepth", kCompressedImage,
+            test::compressed_image_message(10.5 + i, "camera_optical", "32FC1; compressedDepth png",
+                                           quantisation(10100.0F, -1009.0F) + png_of(numbers)));
+  }
+  Scan expected;
+  for (int i = 0; i < 12; ++i) {
+    const double depth_m = depths_m[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d direction((i % 4 - 1.5) / 5.0, (i / 4 - 1.0) / 5.0, 1.0);
+    if (depth_m > 0.0) expected.points_m.emplace_back((direction * depth_m).cast<float>());
+  }
+  expect_map(recording(bag), [&](int) { return expected; });
+}
+
+TEST_F(BagRecordingTest, LeavesOutAnImageThatIsWrong) {
+  const auto refused = [this](const std::string& format, const std::string& data) {
+    test::MadeBag bag = drive();
+    bag.add("/depth/camera_info", kCameraInfo, camera_info());
+    bag.add("/depth/image/compressedDepth", kCompressedImage,
+            test::compressed_image_message(10.5, "camera_optical", format, data));
+    return test::message_of<InputError>([&] { recording(bag)->read(0); });
+  };
+  const std::string header = quantisation(10100.0F, -1009.0F);
+  const std::string png = png_of(depths());
+  EXPECT_EQ(refused("32FC1; compressedDepth", header + png), "");
+  EXPECT_THAT(refused("16UC1; compressedDepth rvl", header + "\4\0\0\0\3\0\0\0"),
+              AllOf(HasSubstr("/compressedDepth at 10.5 s"), HasSubstr("compressedDepth rvl"),
+                    HasSubstr("format to png")));
+  EXPECT_THAT(refused("16UC1; compressedDepth", "short"), HasSubstr("holds no PNG"));
+  EXPECT_THAT(refused("32FC1; compressedDepth", png), HasSubstr("holds no PNG"));
+  EXPECT_THAT(refused("32FC1; compressedDepth", quantisation(test::kNaN, 0.0F) + png),
+              HasSubstr("how 16-bit numbers become metres"));
+  EXPECT_THAT(refused("16UC1; compressedDepth", header + png.substr(0, png.size() - 20)),
+              HasSubstr("truncated"));
+  EXPECT_THAT(refused("16UC1; compressedDepth", header + png.substr(0, 20)),
+              HasSubstr("the PNG cannot be read"));
+
+  test::MadeBag half = drive();
+  half.add("/depth/camera_info", kCameraInfo, camera_info());
+  half.add("/depth/image", kImage,
+           test::image_message(10.5, "camera_optical", 2, 1, "16UC1", std::string(4, 'x')));
+  EXPECT_THAT(test::message_of<InputError>([&] { recording(half)->read(0); }),
+              HasSubstr("an image has 2 x 1 pixels, its camera_info is of 4 x 3 pixels"));
 }
 
 TEST_F(BagRecordingTest, SaysWhatIsMissing) {

@@ -113,6 +113,11 @@ inline std::string image_message(double time_s, const std::string& frame, std::u
          '\0' + bytes_of(step) + sized(data);
 }
 
+inline std::string compressed_image_message(double time_s, const std::string& frame,
+                                            const std::string& format, const std::string& data) {
+  return header_message(time_s, frame) + sized(format) + sized(data);
+}
+
 inline std::string camera_info_message(double time_s, const std::string& frame, double focal_px,
                                        double cx_px, double cy_px) {
   std::string message = header_message(time_s, frame) + bytes_of(3U) + bytes_of(4U) +

@@ -18,15 +18,15 @@ try:
     import rosbag
     import rospy
     from geometry_msgs.msg import TransformStamped
-    from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
     from std_msgs.msg import String
     from tf2_msgs.msg import TFMessage
+
+    import depth_frames
 except ImportError as error:
     MISSING = str(error)
 
 FRAMES = 3
 OPTICAL = (-0.5, 0.5, -0.5, 0.5)  # of a camera that looks along x, x y z w
-WIDTH, HEIGHT, FOCAL = 40, 30, 30.0
 
 
 def stamped(message, time_s: float, frame: str):
@@ -41,20 +41,6 @@ def transform(time_s: float, parent: str, child: str, position, orientation) -> 
     p.x, p.y, p.z = position
     q.x, q.y, q.z, q.w = orientation
     return TFMessage([told])
-
-
-def depths(frame: int) -> np.ndarray:
-    """(HEIGHT, WIDTH) uint16, millimetres."""
-    slope = np.arange(WIDTH, dtype=np.uint16) * 5
-    return np.tile(1500 + 50 * frame + slope, (HEIGHT, 1)).astype(np.uint16)
-
-
-def points(frame: int) -> np.ndarray:
-    """(HEIGHT * WIDTH, 3) float32, those of depths()."""
-    v, u = np.mgrid[:HEIGHT, :WIDTH]
-    z = depths(frame) * 0.001
-    x, y = (u - (WIDTH - 1) / 2) / FOCAL * z, (v - (HEIGHT - 1) / 2) / FOCAL * z
-    return np.stack((x, y, z), axis=-1).reshape(-1, 3).astype(np.float32)
 
 
 @unittest.skipIf(MISSING, f"rosbag is not there: {MISSING}")
@@ -94,23 +80,21 @@ class BagTest(unittest.TestCase):
 
     def write_frame(self, write, frame: int) -> None:
         time_s = 10.0 + frame
-        info = CameraInfo(height=HEIGHT, width=WIDTH)
-        centre = (WIDTH - 1) / 2, (HEIGHT - 1) / 2
-        info.P = [FOCAL, 0, centre[0], 0, 0, FOCAL, centre[1], 0, 0, 0, 1, 0]
-        write("/depth/camera_info", stamped(info, time_s, "camera_optical_frame"), time_s)
-        image = Image(height=HEIGHT, width=WIDTH, encoding="16UC1", step=2 * WIDTH)
-        image.data = depths(frame).tobytes()
-        write("/depth/image_rect", stamped(image, time_s, "camera_optical_frame"), time_s)
-        cloud = PointCloud2(height=HEIGHT, width=WIDTH, point_step=16, row_step=16 * WIDTH)
-        fields = zip(("x", "y", "z"), (0, 4, 8))
-        cloud.fields = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in fields]
-        padded = np.zeros((HEIGHT * WIDTH, 4), np.float32)
-        padded[:, :3] = points(frame)
-        cloud.data = padded.tobytes()
-        write("/depth/points", stamped(cloud, time_s, "camera_optical_frame"), time_s)
+        for topic, message in (
+            ("/depth/camera_info", depth_frames.camera_info()),
+            ("/depth/image_rect", depth_frames.image(frame, "16UC1")),
+            *(
+                (f"/depth/{encoding}/compressedDepth", depth_frames.compressed_image(frame, encoding))
+                for encoding in ("16UC1", "32FC1")
+            ),
+            ("/depth/points", depth_frames.cloud(frame)),
+        ):
+            write(topic, stamped(message, time_s, "camera_optical_frame"), time_s)
 
-    def by_hand(self) -> bytes:
+    def by_hand(self, points) -> bytes:
+        """The map of points(frame), (N, 3)."""
         out = self.folder / "by_hand.ot"
+        out.unlink(missing_ok=True)
         for i in range(FRAMES):
             scan = self.folder / "scan.txt"
             np.savetxt(scan, points(i), fmt="%.9g")
@@ -131,7 +115,7 @@ class BagTest(unittest.TestCase):
         return out.read_bytes()
 
     def test_map_is_that_of_the_frames_by_hand(self):
-        expected = self.by_hand()
+        expected = self.by_hand(depth_frames.points)
         for compression in ("none", "bz2", "lz4"):
             bag = self.write(compression)
             for topic in ("/depth/points", "/depth/image_rect"):
@@ -141,13 +125,22 @@ class BagTest(unittest.TestCase):
                 with self.subTest(compression=compression, topic=topic):
                     self.assertEqual((self.folder / "built.ot").read_bytes(), expected)
 
+    def test_compressed_images_are_what_was_compressed(self):
+        bag = self.write("none")
+        for encoding in ("16UC1", "32FC1"):
+            expected = self.by_hand(lambda i: depth_frames.compressed_points(i, encoding))
+            told = self.build(bag, "--topic", f"/depth/{encoding}/compressedDepth")
+            self.assertEqual(told["frames_inserted"], FRAMES)
+            with self.subTest(encoding=encoding):
+                self.assertEqual((self.folder / "built.ot").read_bytes(), expected)
+
     def test_refusals_name_the_remedy(self):
         bag = self.write("none")
         out = self.folder / "out.ot"
         truncated = self.folder / "truncated.bag"
         truncated.write_bytes(bag.read_bytes()[:-1000])
         for path, arguments, said in (
-            (bag, (), "choose one by topic: /depth/image_rect"),
+            (bag, (), "choose one by topic: /depth/16UC1/compressedDepth"),
             (bag, ("--topic", "/chatter"), "no clouds or depth images on the topic '/chatter'"),
             (bag, ("--topic", "/depth/points", "--fixed-frame", "odom"), "to 'odom'"),
             (truncated, ("--topic", "/depth/points"), "truncated"),
