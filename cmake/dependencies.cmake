@@ -55,7 +55,7 @@ if(NBVOPT_BUILD_ROS)
   find_package(PkgConfig)
   if(PkgConfig_FOUND)
     pkg_check_modules(ros QUIET IMPORTED_TARGET
-      roscpp tf2_ros sensor_msgs nav_msgs trajectory_msgs visualization_msgs std_srvs)
+      roscpp message_filters tf2_ros sensor_msgs nav_msgs trajectory_msgs visualization_msgs std_srvs)
     find_file(GENCPP gen_cpp.py PATHS /usr/lib/gencpp NO_DEFAULT_PATH)
     find_file(GENPY genmsg_py.py PATHS /usr/lib/genpy NO_DEFAULT_PATH)
     find_file(ROS_DEFINITIONS Marker.msg PATHS /usr/share/visualization_msgs/msg NO_DEFAULT_PATH)

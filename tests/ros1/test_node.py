@@ -321,6 +321,7 @@ class NodeTest(unittest.TestCase):
                 ("resolution:=-0.1", "resolution is -0.1"),
                 ("fov/angle/horizontal/max:=1.0", "fov/angle/horizontal"),
                 ("pan/vel:=fast", "pan/vel"),
+                ("image_transport:=theora", "image_transport is 'theora'"),
                 ("robot:=/nowhere.yaml", "/nowhere.yaml"),
             )
         ):

@@ -1,5 +1,7 @@
 #include "ros1/node/conversions.hpp"
 
+#include <algorithm>
+
 #include "map/point_cloud_message.hpp"
 
 namespace nbvopt {
@@ -67,6 +69,26 @@ sensor_msgs::PointCloud2 cloud_of_floats(std::initializer_list<const char*> fiel
     cloud.point_step += sizeof(float);
   }
   return cloud;
+}
+
+ImageMessage image_of(const sensor_msgs::Image& message) {
+  return {.height = message.height,
+          .width = message.width,
+          .encoding = message.encoding,
+          .is_bigendian = message.is_bigendian != 0,
+          .step = message.step,
+          .data = message.data};
+}
+
+CompressedImageMessage image_of(const sensor_msgs::CompressedImage& message) {
+  return {.format = message.format, .data = message.data};
+}
+
+CameraInfoMessage camera_info_of(const sensor_msgs::CameraInfo& message) {
+  CameraInfoMessage info{.height = message.height, .width = message.width};
+  std::ranges::copy(message.K, info.K.begin());
+  std::ranges::copy(message.P, info.P.begin());
+  return info;
 }
 
 Scan scan_of(const sensor_msgs::PointCloud2& message) {

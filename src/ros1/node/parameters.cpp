@@ -173,6 +173,13 @@ void read_robot_description(const ros::NodeHandle& ros_node, const Parameters& p
   node.joints = mast.joints;
 }
 
+void read_image_transport(const Parameters& parameters, std::string& transport) {
+  parameters.read("image_transport", transport);
+  if (transport == "raw" || transport == "compressedDepth" || transport == "compressed") return;
+  throw InputError("parameter " + parameters.full_name("image_transport") + " is '" + transport +
+                   "', it must be raw, compressedDepth or compressed");
+}
+
 /// What OctoMap's server lets choose and this one does not.
 void warn_of_sensor_model(const Parameters& parameters) {
   constexpr std::array<std::pair<const char*, double>, 4> kFixed{
@@ -196,6 +203,7 @@ NodeParameters read_parameters(const ros::NodeHandle& ros_node) {
   parameters.read_frame("base_frame_id", node.base_frame);
   parameters.read_frame("base_frame", node.base_frame);
   parameters.read_frame("sensor_frame", node.sensor_frame);
+  read_image_transport(parameters, node.image_transport);
   node.joints[0] = RosJoint{.name = "telescopic_arm_continuous_joint"};
   read_robot_description(ros_node, parameters, node);
   read_sensor(parameters, node.robot.sensor);

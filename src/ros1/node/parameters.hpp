@@ -19,6 +19,7 @@ struct NodeParameters {
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   std::string sensor_frame;  ///< optical (z forward, x right, y down); empty: that of each cloud
+  std::string image_transport = "raw";  ///< of depth images; or compressedDepth, compressed
   Robot robot;
   /// (pan, tilt, height); none: it stays where the robot's limits, which are equal, have it.
   std::array<std::optional<RosJoint>, 3> joints;
