@@ -36,7 +36,8 @@ try:
 except ImportError as error:
     MISSING = str(error)
 
-WORLD = pathlib.Path(__file__).resolve().parents[2] / "datasets" / "office.world"
+DATASETS = pathlib.Path(__file__).resolve().parents[2] / "datasets"
+WORLD = DATASETS / "office.world"
 BASE = (0.62, 0.71, 0.3)  # x, y, yaw: the robot stands, so that nothing depends on time
 MOTION_TIME_S = 0.5
 LOOKS = 6
@@ -323,11 +324,25 @@ class NodeTest(unittest.TestCase):
                 ("pan/vel:=fast", "pan/vel"),
                 ("image_transport:=theora", "image_transport is 'theora'"),
                 ("robot:=/nowhere.yaml", "/nowhere.yaml"),
+                ("map:=/nowhere.ot", "/nowhere.ot"),
             )
         ):
             wrong = self.ros.start(NODE, f"__name:=wrong_{i}", f"_{parameter}")
             self.assertEqual(wrong.wait(timeout=30), 3)
             self.assertIn(named, self.ros.log())
+
+    def test_7_a_map_that_is_given_is_kept(self):
+        file = DATASETS / "office_partial.ot"
+        services = ("octomap_full", "octomap_binary", "optimize_current_pose")
+        apart = (f"{name}:=/given/{name}" for name in services)
+        given = self.ros.start(NODE, "__name:=given", f"_map:={file}", "_resolution:=0.3", *apart)
+        info = cli_json("map", "info", file, "--json")
+        held = self.call("/given/get_map_info", GetValue).value
+        self.assertAlmostEqual(held / info["information"], 1.0, places=5)
+        message = self.call("/given/octomap_full", GetOctomap).map
+        self.assertAlmostEqual(message.resolution, info["resolution_m"])
+        given.terminate()
+        given.wait()
 
 
 if __name__ == "__main__":

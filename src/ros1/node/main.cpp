@@ -4,13 +4,15 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <iostream>
+#include <string>
+#include <vector>
 
-#include "nbvopt/core/error.hpp"
+#include "nbvopt/map/map_file.hpp"
 #include "ros1/node/joints.hpp"
 #include "ros1/node/map_services.hpp"
 #include "ros1/node/map_topics.hpp"
 #include "ros1/node/parameters.hpp"
+#include "ros1/node/program.hpp"
 #include "ros1/node/scan_input.hpp"
 #include "ros1/node/view_service.hpp"
 #include "server/map_store.hpp"
@@ -31,10 +33,18 @@ class Queue {
   ros::AsyncSpinner spinner_;
 };
 
+UncertaintyMap first_map(const NodeParameters& parameters) {
+  if (parameters.map_file.empty()) return UncertaintyMap(parameters.resolution_m);
+  std::vector<std::string> warnings;
+  UncertaintyMap map = read_map(parameters.map_file, warnings);
+  for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
+  return map;
+}
+
 void run() {
   ros::NodeHandle private_node("~");
   const NodeParameters parameters = read_parameters(private_node);
-  MapStore store(parameters.robot, {}, UncertaintyMap(parameters.resolution_m), 1);
+  MapStore store(parameters.robot, {}, first_map(parameters), 1);
   constexpr double kTfMemory_s = 30.0;
   tf2_ros::Buffer tf{ros::Duration(kTfMemory_s)};
   const tf2_ros::TransformListener listener(tf);
@@ -54,8 +64,8 @@ void run() {
   const MapServices services(service_node, private_node, parameters, tf, store);
   const MapTopics topics(topic_node, parameters, store);
   for (Queue* queue : {&robot_queue, &view_queue, &service_queue, &topic_queue}) queue->start();
-  ROS_INFO("ready: a map of %g m voxels in the frame %s", parameters.resolution_m,
-           parameters.map_frame.c_str());
+  ROS_INFO("ready: a map of %g m voxels in the frame %s",
+           store.published()->grid()->lattice().resolution_m(), parameters.map_frame.c_str());
   ros::waitForShutdown();
   for (Queue* queue : {&view_queue, &service_queue, &topic_queue, &robot_queue}) queue->stop();
 }
@@ -65,12 +75,5 @@ void run() {
 
 int main(int argc, char** argv) {
   // The paper's map server, whose private services others call by this name.
-  ros::init(argc, argv, "octomap_server");
-  try {
-    nbvopt::run();
-  } catch (const std::exception& error) {
-    std::cerr << argv[0] << ": " << error.what() << '\n';  // ROS may be shut down, with its log
-    return 3;
-  }
-  return 0;
+  return nbvopt::run_node(argc, argv, "octomap_server", nbvopt::run);
 }

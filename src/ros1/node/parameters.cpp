@@ -210,6 +210,7 @@ NodeParameters read_parameters(const ros::NodeHandle& ros_node) {
   read_mast(parameters, node);
   node.robot.sensor.validate();
   node.robot.mast.validate();
+  parameters.read("map", node.map_file);
   parameters.read_positive("resolution", node.resolution_m);
   parameters.read_positive("time_limit_ms", node.time_limit_ms);
   parameters.read_not_negative("arrival/timeout", node.arrival_timeout_s);

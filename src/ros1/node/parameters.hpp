@@ -23,7 +23,8 @@ struct NodeParameters {
   Robot robot;
   /// (pan, tilt, height); none: it stays where the robot's limits, which are equal, have it.
   std::array<std::optional<RosJoint>, 3> joints;
-  double resolution_m = 0.1;
+  std::string map_file;             ///< to begin with; empty: an empty map
+  double resolution_m = 0.1;        ///< of an empty map
   double time_limit_ms = 500.0;     ///< of a search
   double arrival_timeout_s = 2.0;   ///< after the motion's own time; 0: nobody waits for the joints
   double arrival_angle_rad = 0.02;  ///< a joint this near has arrived

@@ -6,11 +6,12 @@
 //   ~camera_hz   clouds a second (5)
 #include <ros/ros.h>
 
-#include <iostream>
+#include <string>
 
 #include "core/number.hpp"
 #include "nbvopt/core/error.hpp"
 #include "nbvopt/sim/world.hpp"
+#include "ros1/node/program.hpp"
 #include "ros1/robot/simulated_robot.hpp"
 
 namespace nbvopt {
@@ -47,12 +48,5 @@ void run() {
 }  // namespace nbvopt
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulated_robot");
-  try {
-    nbvopt::run();
-  } catch (const std::exception& error) {
-    std::cerr << argv[0] << ": " << error.what() << '\n';  // ROS may be shut down, with its log
-    return 3;
-  }
-  return 0;
+  return nbvopt::run_node(argc, argv, "simulated_robot", nbvopt::run);
 }
