@@ -183,6 +183,23 @@ TEST_F(BagRecordingTest, ReadsDepthImages) {
   }
 }
 
+/// The high byte first, of a camera that tells K alone.
+TEST_F(BagRecordingTest, ReadsImagesOfOtherDrivers) {
+  std::string data;
+  for (const std::uint16_t depth : depths()) {
+    data += static_cast<char>(depth >> 8);
+    data += static_cast<char>(depth & 0xFF);
+  }
+  test::MadeBag bag = drive();
+  bag.add("/depth/camera_info", kCameraInfo,
+          test::camera_info_message(10.5, "camera_optical", 5.0, 1.5, 1.0, false));
+  for (int i = 0; i < kFrames; ++i) {
+    bag.add("/depth/image", kImage,
+            test::image_message(10.5 + i, "camera_optical", 4, 3, "mono16", data, true));
+  }
+  expect_map(recording(bag), [](int) { return scan_of_depths(); });
+}
+
 TEST_F(BagRecordingTest, ReadsCompressedDepthImages) {
   const std::string header = quantisation(0.0F, 0.0F);  // not looked at
   for (const auto& [format, start] :

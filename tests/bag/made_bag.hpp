@@ -107,10 +107,10 @@ inline std::string cloud_message(double time_s, const std::string& frame,
 
 inline std::string image_message(double time_s, const std::string& frame, std::uint32_t width,
                                  std::uint32_t height, const std::string& encoding,
-                                 const std::string& data) {
+                                 const std::string& data, bool is_bigendian = false) {
   const auto step = static_cast<std::uint32_t>(data.size() / height);
   return header_message(time_s, frame) + bytes_of(height) + bytes_of(width) + sized(encoding) +
-         '\0' + bytes_of(step) + sized(data);
+         (is_bigendian ? '\1' : '\0') + bytes_of(step) + sized(data);
 }
 
 inline std::string compressed_image_message(double time_s, const std::string& frame,
@@ -118,14 +118,23 @@ inline std::string compressed_image_message(double time_s, const std::string& fr
   return header_message(time_s, frame) + sized(format) + sized(data);
 }
 
+/// By P, or by K alone, of an image that was not rectified.
 inline std::string camera_info_message(double time_s, const std::string& frame, double focal_px,
-                                       double cx_px, double cy_px) {
+                                       double cx_px, double cy_px, bool is_rectified = true) {
   std::string message = header_message(time_s, frame) + bytes_of(3U) + bytes_of(4U) +
                         sized("plumb_bob") + bytes_of(0U);
-  for (int i = 0; i < 18; ++i) append(message, 0.0);
-  for (const double number :
-       {focal_px, 0.0, cx_px, 0.0, 0.0, focal_px, cy_px, 0.0, 0.0, 0.0, 1.0, 0.0}) {
-    append(message, number);
+  const auto zeros = [&message](int count) {
+    for (int i = 0; i < count; ++i) append(message, 0.0);
+  };
+  const auto numbers = [&message](const std::vector<double>& all) {
+    for (const double number : all) append(message, number);
+  };
+  if (is_rectified) {
+    zeros(9 + 9);  // K and R
+    numbers({focal_px, 0.0, cx_px, 0.0, 0.0, focal_px, cy_px, 0.0, 0.0, 0.0, 1.0, 0.0});
+  } else {
+    numbers({focal_px, 0.0, cx_px, 0.0, focal_px, cy_px, 0.0, 0.0, 1.0});
+    zeros(9 + 12);
   }
   return message + std::string(4 + 4 + 17, '\0');
 }

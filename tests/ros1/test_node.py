@@ -17,7 +17,7 @@ try:
     import rosmaster  # noqa: F401, run as a program
     import rospy
     import tf2_ros
-    from geometry_msgs.msg import Point, PoseStamped
+    from geometry_msgs.msg import Point, PoseStamped, TransformStamped
     from nav_msgs.msg import OccupancyGrid, Path
     from octomap_msgs.msg import Octomap
     from octomap_msgs.srv import (
@@ -30,6 +30,7 @@ try:
     from reconstruction_3d_planner.srv import OptimizeCurrentPose
     from sensor_msgs.msg import JointState, PointCloud2
     from std_srvs.srv import Empty
+    from trajectory_msgs.msg import JointTrajectory
     from visualization_msgs.msg import MarkerArray
 
     from ros_system import CONFIG, NODE, ROBOT, RosSystem, wait_for
@@ -331,18 +332,51 @@ class NodeTest(unittest.TestCase):
             self.assertEqual(wrong.wait(timeout=30), 3)
             self.assertIn(named, self.ros.log())
 
+    def start_apart(self, name: str, *parameters) -> subprocess.Popen:
+        """Another node, whose services of global names come under its own."""
+        services = ("octomap_full", "octomap_binary", "optimize_current_pose")
+        apart = (f"{service}:=/{name}/{service}" for service in services)
+        return self.ros.start(NODE, f"__name:={name}", *parameters, *apart)
+
     def test_7_a_map_that_is_given_is_kept(self):
         file = DATASETS / "office_partial.ot"
-        services = ("octomap_full", "octomap_binary", "optimize_current_pose")
-        apart = (f"{name}:=/given/{name}" for name in services)
-        given = self.ros.start(NODE, "__name:=given", f"_map:={file}", "_resolution:=0.3", *apart)
+        self.start_apart("given", f"_map:={file}", "_resolution:=0.3")
         info = cli_json("map", "info", file, "--json")
         held = self.call("/given/get_map_info", GetValue).value
         self.assertAlmostEqual(held / info["information"], 1.0, places=5)
         message = self.call("/given/octomap_full", GetOctomap).map
         self.assertAlmostEqual(message.resolution, info["resolution_m"])
-        given.terminate()
-        given.wait()
+
+    def test_8_joints_are_those_of_the_urdf(self):
+        """The camera's height is 0.18 m and three times what the lowest of three lifts says."""
+        robot = (f"_robot:={DATASETS}/robots/lift.urdf", "_camera_link:=camera_link")
+        self.start_apart("lift", *robot, "_arrival/timeout:=0.0")
+        base = TransformStamped(child_frame_id="base_link")
+        base.header.frame_id = "map"
+        base.transform.rotation.w = 1.0
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(base)
+        publisher = rospy.Publisher("joint_states", JointState, queue_size=1, latch=True)
+        names = ["pan_joint", "tilt_joint", "lift_1_joint"]
+        publisher.publish(JointState(name=names, position=[0.0, 0.0, 0.1]))
+        commands = []
+        command = "/sensor_trajectory_controller/command"
+        rospy.Subscriber(command, JointTrajectory, commands.append)
+        time_s = 0.1
+
+        def has_moved() -> bool:
+            self.answer = self.call("/lift/optimize_current_pose", OptimizeCurrentPose, time_s)
+            return self.answer.success and len(commands) > 0
+
+        wait_for("a command", has_moved)
+        height_m = self.answer.pose.position.z
+        self.assertAlmostEqual(height_m, 0.18 + 3 * 0.1, delta=0.15 * time_s + 1e-6)
+
+        def commanded_m() -> float:
+            target = dict(zip(commands[-1].joint_names, commands[-1].points[0].positions))
+            return 0.18 + 3 * target["lift_1_joint"]
+
+        wait_for("that height", lambda: abs(commanded_m() - height_m) < 1e-6)
 
 
 if __name__ == "__main__":
