@@ -66,6 +66,11 @@ std::string camera_info() {
   return test::camera_info_message(10.5, "camera_optical", 5.0, 1.5, 1.0);
 }
 
+/// Of the colour camera beside it.
+std::string other_camera_info() {
+  return test::camera_info_message(10.5, "colour_optical", 7.0, 2.0, 2.0);
+}
+
 Scan scan_of_depths() {
   Scan scan;
   for (std::uint32_t row = 0; row < 3; ++row) {
@@ -172,6 +177,7 @@ TEST_F(BagRecordingTest, ReadsDepthImages) {
     }
     for (int i = 0; i < kFrames; ++i) {
       const double time_s = 10.5 + i;
+      bag.add("/colour/camera_info", kCameraInfo, other_camera_info());
       bag.add("/depth/camera_info", kCameraInfo, camera_info());
       bag.add(
           "/depth/image", kImage,
@@ -205,6 +211,7 @@ TEST_F(BagRecordingTest, ReadsCompressedDepthImages) {
   for (const auto& [format, start] :
        {std::pair{"16UC1; compressedDepth", header}, {"16UC1; png compressed ", std::string()}}) {
     test::MadeBag bag = drive();
+    bag.add("/colour/camera_info", kCameraInfo, other_camera_info());
     bag.add("/depth/camera_info", kCameraInfo, camera_info());
     for (int i = 0; i < kFrames; ++i) {
       bag.add("/depth/image/packed", kCompressedImage,
