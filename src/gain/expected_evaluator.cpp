@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gain/angle_part.hpp"
+#include "gain/expected_parts.hpp"
 #include "gain/normal_part.hpp"
 #include "gain/passage_walk.hpp"
 #include "gain/ray_passages.hpp"
@@ -25,6 +26,16 @@ class ExpectedEvaluator final : public ViewEvaluator {
         level_(level) {}
 
   std::string name() const override { return "exact"; }
+
+  void add_parts(const Transform& T_map_sensor, const detail::AddExpectedPart& add) const {
+    const SensorOptions& sensor = camera_.options();
+    const RayBundle rays = make_bundle(camera_.rays(), T_map_sensor, sensor.near_blocking);
+    detail::RayPassages passages;
+    const detail::RayWalk walk =
+        detail::pass_rays(*grid_, rays, sensor.occupied_uncertainty, passage_, passages, level_);
+    detail::take_normal_part(*grid_, sensor.normal_weight, passages.end);
+    for_each_part(walk, passages.end, add);
+  }
 
   ViewGain evaluate(const Transform& T_map_sensor) const override {
     const SensorOptions& sensor = camera_.options();
@@ -78,6 +89,18 @@ class ExpectedEvaluator final : public ViewEvaluator {
       sum += gain - best;
       best = gain;
     };
+    for_each_part(walk, end, [&](VoxelKey voxel, VoxelState state, double gain) {
+      if (state == VoxelState::occupied) {
+        raise(seen[packed(voxel)], gain, occupied_gain);
+      } else {
+        raise(hidden[packed(voxel)], gain, unknown_gain);
+      }
+    });
+  }
+
+  /// Calls add(voxel, state, gain) with what each voxel on each ray is expected to bring it.
+  template <class Add>
+  void for_each_part(const detail::RayWalk& walk, const RayHits& end, const Add& add) const {
     const RayBundle& rays = *walk.rays;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (end.kind[i] == HitKind::blocked) continue;
@@ -87,9 +110,8 @@ class ExpectedEvaluator final : public ViewEvaluator {
         const detail::PassedPiece passed =
             detail::pass_piece(piece, passage_.hazards, rays.range_min_m[i], transmittance);
         if (passed.probability > 0.0) {
-          raise(hidden[packed(piece.voxel)],
-                passed.probability * (unknown_u_old_ - u_new(i, passed.mean_distance_m)),
-                unknown_gain);
+          add(piece.voxel, piece.is_unknown ? VoxelState::unknown : VoxelState::free,
+              passed.probability * (unknown_u_old_ - u_new(i, passed.mean_distance_m)));
         }
         return true;
       };
@@ -97,7 +119,7 @@ class ExpectedEvaluator final : public ViewEvaluator {
       detail::walk_passage(walk, passage_.hazards, ray, end.direction_z[i], rays.range_max_m[i],
                            visit, ends_at);
       if (end.kind[i] == HitKind::occupied) {
-        raise(seen[packed(end.voxel[i])], transmittance * end_gain(end, i), occupied_gain);
+        add(end.voxel[i], VoxelState::occupied, transmittance * end_gain(end, i));
       }
     }
   }
@@ -118,6 +140,12 @@ std::unique_ptr<ViewEvaluator> make_expected_evaluator(std::shared_ptr<const Vox
                                                        const HazardTable& hazards,
                                                        SimdLevel level) {
   return std::make_unique<ExpectedEvaluator>(std::move(grid), camera, hazards, level);
+}
+
+void detail::add_expected_parts(const std::shared_ptr<const VoxelGrid>& grid,
+                                const DepthCamera& camera, const HazardTable& hazards,
+                                const Transform& T_map_sensor, const AddExpectedPart& add) {
+  ExpectedEvaluator(grid, camera, hazards, SimdLevel::best).add_parts(T_map_sensor, add);
 }
 
 }  // namespace nbvopt

@@ -62,45 +62,50 @@ bool ends_at_rear_side(std::span<const RayVoxel> ray) {
   return ends_occupied(ray) && begin_of_hidden_run(ray) + 1 < ray.size();
 }
 
-double occlusion_aware(const SeenView& view) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    with_visibility(view.rays.ray(i), view.sensor.visibility,
-                    [&](const RayVoxel& v, double p_vis) { sum += p_vis * entropy(v.state); });
-  }
-  return sum;
-}
+// The gains that are sums over voxels: each calls add(voxel, part) for every part.
 
-double unobserved_voxel(const SeenView& view) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    with_visibility(view.rays.ray(i), view.sensor.visibility, [&](const RayVoxel& v, double p_vis) {
-      if (v.state == VoxelState::unknown) sum += p_vis * entropy(v.state);
+struct OcclusionAware {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    for (std::size_t i = 0; i < view.rays.size(); ++i) {
+      with_visibility(view.rays.ray(i), view.sensor.visibility,
+                      [&](const RayVoxel& v, double p_vis) { add(v, p_vis * entropy(v.state)); });
+    }
+  }
+};
+
+struct UnobservedVoxel {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    OcclusionAware::add_parts(view, [&](const RayVoxel& v, double part) {
+      if (v.state == VoxelState::unknown) add(v, part);
     });
   }
-  return sum;
-}
+};
 
-double rear_side_voxel(const SeenView& view) {
-  double count = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    count += ends_at_rear_side(view.rays.ray(i)) ? 1.0 : 0.0;
+struct RearSideVoxel {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    for (std::size_t i = 0; i < view.rays.size(); ++i) {
+      const std::span<const RayVoxel> ray = view.rays.ray(i);
+      if (ends_at_rear_side(ray)) add(ray.back(), 1.0);
+    }
   }
-  return count;
-}
+};
 
-double rear_side_entropy(const SeenView& view) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    const std::span<const RayVoxel> ray = view.rays.ray(i);
-    if (!ends_at_rear_side(ray)) continue;
-    const RayVoxel* first = &ray[begin_of_hidden_run(ray)];
-    with_visibility(ray, view.sensor.visibility, [&](const RayVoxel& v, double p_vis) {
-      if (&v >= first) sum += p_vis * entropy(v.state);
-    });
+struct RearSideEntropy {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    for (std::size_t i = 0; i < view.rays.size(); ++i) {
+      const std::span<const RayVoxel> ray = view.rays.ray(i);
+      if (!ends_at_rear_side(ray)) continue;
+      const RayVoxel* first = &ray[begin_of_hidden_run(ray)];
+      with_visibility(ray, view.sensor.visibility, [&](const RayVoxel& v, double p_vis) {
+        if (&v >= first) add(v, p_vis * entropy(v.state));
+      });
+    }
   }
-  return sum;
-}
+};
 
 double average_entropy(const SeenView& view) {
   double sum = 0.0;
@@ -115,18 +120,19 @@ double average_entropy(const SeenView& view) {
 }
 
 /// The nearer to a surface, the more likely there is more of it.
-double proximity_count(const SeenView& view) {
-  const double d_max = 2.0 * view.distances.reach();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    for (const RayVoxel& v : view.rays.ray(i)) {
-      if (v.state != VoxelState::unknown) continue;
-      const double d_occ = view.distances.voxels_to_surface(v.key);
-      if (std::isfinite(d_occ)) sum += d_max - d_occ;
+struct ProximityCount {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    const double d_max = 2.0 * view.distances.reach();
+    for (std::size_t i = 0; i < view.rays.size(); ++i) {
+      for (const RayVoxel& v : view.rays.ray(i)) {
+        if (v.state != VoxelState::unknown) continue;
+        const double d_occ = view.distances.voxels_to_surface(v.key);
+        if (std::isfinite(d_occ)) add(v, d_max - d_occ);
+      }
     }
   }
-  return sum;
-}
+};
 
 /// 1 where the share is as wished, 0 where it is 0 or 1, smooth in between.
 double area_factor(double share, double wished) {
@@ -168,10 +174,22 @@ double look_weight(double voxel_m, double z_m) {
 /// unknown voxel beside a surface: L. Schmid et al., "An efficient sampling-based method for online
 /// informative path planning in unknown environments", RA-L 2020. Maps keep u and no weights: those
 /// of past looks are taken as that of one from where Eq. 2 gives u.
-double voxel_weight(const SeenView& view) {
-  constexpr double kLeastGain = 0.01;
-  const double voxel_m = view.grid.lattice().resolution_m();
-  const auto gain = [&](const RayVoxel& v) {
+struct VoxelWeight {
+  template <class Add>
+  static void add_parts(const SeenView& view, const Add& add) {
+    std::unordered_set<std::uint64_t> seen;
+    for (std::size_t i = 0; i < view.rays.size(); ++i) {
+      for (const RayVoxel& v : view.rays.ray(i)) {
+        const bool counts = v.state == VoxelState::occupied || v.is_beside_surface;
+        if (counts && seen.insert(packed(v.key)).second) add(v, part_of(view, v));
+      }
+    }
+  }
+
+ private:
+  static double part_of(const SeenView& view, const RayVoxel& v) {
+    constexpr double kLeastGain = 0.01;
+    const double voxel_m = view.grid.lattice().resolution_m();
     if (v.state != VoxelState::occupied) return v.is_beside_surface ? 1.0 : 0.0;
     const double u = view.grid.carries_uncertainty() ? double{view.grid.uncertainty(v.key)}
                                                      : view.sensor.occupied_uncertainty;
@@ -182,42 +200,54 @@ double voxel_weight(const SeenView& view) {
     const double w_new = look_weight(voxel_m, std::max(voxel_m, z_m));
     const double share = w_new / (w_new + w_old);
     return share < kLeastGain ? 0.0 : share;
-  };
-  std::unordered_set<std::uint64_t> seen;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < view.rays.size(); ++i) {
-    for (const RayVoxel& v : view.rays.ray(i)) {
-      const bool counts = v.state == VoxelState::occupied || v.is_beside_surface;
-      if (counts && seen.insert(packed(v.key)).second) sum += gain(v);
-    }
   }
-  return sum;
-}
+};
 
 struct VolumetricGain {
   GainKind kind;
   double (*gain)(const SeenView& view);
+  void (*add_parts)(const SeenView& view, const AddPart& add);  ///< null: it is no sum
 };
+
+template <class Sum>
+constexpr VolumetricGain sum_of_voxels(GainKind kind) {
+  return {kind,
+          [](const SeenView& view) {
+            double sum = 0.0;
+            Sum::add_parts(view, [&](const RayVoxel&, double part) { sum += part; });
+            return sum;
+          },
+          [](const SeenView& view, const AddPart& add) { Sum::add_parts(view, add); }};
+}
 
 /// Every gain of this kind; a new one gets a line here and a name in sensor_names.hpp.
 constexpr VolumetricGain kGains[] = {
-    {GainKind::occlusion_aware, occlusion_aware},
-    {GainKind::unobserved_voxel, unobserved_voxel},
-    {GainKind::rear_side_voxel, rear_side_voxel},
-    {GainKind::rear_side_entropy, rear_side_entropy},
-    {GainKind::proximity_count, proximity_count},
-    {GainKind::vasquez_gomez_area, vasquez_gomez_area},
-    {GainKind::average_entropy, average_entropy},
-    {GainKind::voxel_weight, voxel_weight},
+    sum_of_voxels<OcclusionAware>(GainKind::occlusion_aware),
+    sum_of_voxels<UnobservedVoxel>(GainKind::unobserved_voxel),
+    sum_of_voxels<RearSideVoxel>(GainKind::rear_side_voxel),
+    sum_of_voxels<RearSideEntropy>(GainKind::rear_side_entropy),
+    sum_of_voxels<ProximityCount>(GainKind::proximity_count),
+    {GainKind::vasquez_gomez_area, vasquez_gomez_area, nullptr},
+    {GainKind::average_entropy, average_entropy, nullptr},
+    sum_of_voxels<VoxelWeight>(GainKind::voxel_weight),
 };
+
+const VolumetricGain& gain_of(GainKind kind) {
+  for (const VolumetricGain& known : kGains) {
+    if (known.kind == kind) return known;
+  }
+  throw UsageError("gain " + std::string(enum_name(kind)) + " is no sum over a ray's voxels");
+}
 
 }  // namespace
 
-double volumetric_gain(GainKind kind, const SeenView& view) {
-  for (const VolumetricGain& known : kGains) {
-    if (known.kind == kind) return known.gain(view);
-  }
-  throw UsageError("gain " + std::string(enum_name(kind)) + " is no sum over a ray's voxels");
+double volumetric_gain(GainKind kind, const SeenView& view) { return gain_of(kind).gain(view); }
+
+bool add_parts(GainKind kind, const SeenView& view, const AddPart& add) {
+  const VolumetricGain& gain = gain_of(kind);
+  if (gain.add_parts == nullptr) return false;
+  gain.add_parts(view, add);
+  return true;
 }
 
 }  // namespace nbvopt::detail

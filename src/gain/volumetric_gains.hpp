@@ -1,6 +1,8 @@
 // The gains that others have published, by their names: one function each.
 #pragma once
 
+#include <functional>
+
 #include "gain/surface_distances.hpp"
 #include "gain/view_rays.hpp"
 #include "nbvopt/sensor/sensor_options.hpp"
@@ -27,5 +29,12 @@ struct SeenView {
 
 /// The gain of that name. Throws UsageError for `positive` and `expected`, which look at u.
 double volumetric_gain(GainKind kind, const SeenView& view);
+
+/// Takes a voxel, which may come again, and what it adds.
+using AddPart = std::function<void(const RayVoxel& voxel, double part)>;
+
+/// Calls add() with the parts of which that gain is the sum. False: it is no sum over voxels.
+/// Throws as volumetric_gain() does.
+bool add_parts(GainKind kind, const SeenView& view, const AddPart& add);
 
 }  // namespace nbvopt::detail

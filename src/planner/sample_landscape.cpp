@@ -23,7 +23,7 @@ std::vector<double> axis(double min_rad, double max_rad, std::size_t count) {
 }  // namespace
 
 Landscape sample_landscape(const ViewEvaluator& evaluator, const Mast& mast,
-                           const PlanResult& result) {
+                           const PlanResult& result, int threads, const StopRule& stop) {
   constexpr std::size_t kMostViews = 20000;
   const JointBox& box = result.box;
   const Eigen::Vector3d width = box.max - box.min;
@@ -43,7 +43,9 @@ Landscape sample_landscape(const ViewEvaluator& evaluator, const Mast& mast,
       poses.push_back(moving.T_map_sensor({pan_rad, tilt_rad, landscape.height_m}));
     }
   }
-  for (const ViewGain& view : evaluate_views(evaluator, poses)) landscape.gain.push_back(view.gain);
+  for (const ViewGain& view : evaluate_views(evaluator, poses, threads, stop)) {
+    landscape.gain.push_back(view.gain);
+  }
   return landscape;
 }
 

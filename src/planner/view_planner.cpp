@@ -143,9 +143,10 @@ std::vector<ViewGain> ViewPlanner::evaluate(std::span<const Transform> poses_T_m
   });
 }
 
-Landscape ViewPlanner::landscape(const PlanResult& result) const {
+Landscape ViewPlanner::landscape(const PlanResult& result, int threads,
+                                 const StopRule& stop) const {
   return impl_->ask([&](const Planner& planner) {
-    return sample_landscape(planner.evaluator(), planner.mast(), result);
+    return sample_landscape(planner.evaluator(), planner.mast(), result, threads, stop);
   });
 }
 

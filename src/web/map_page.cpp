@@ -1,12 +1,14 @@
 #include "web/map_page.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "web/answer_json.hpp"
 #include "web/first_captures.hpp"
 #include "web/packed.hpp"
-#include "web/voxel_gains.hpp"
+#include "web/view_gains.hpp"
 
 namespace nbvopt {
 namespace {
@@ -57,35 +59,9 @@ void MapPage::add_answer(const AnswerFile& answer, const ViewPlanner& planner) {
   data_["camera"] = camera_json(planner.robot().sensor);
   data_["mast"] = mast_json(planner.robot().mast);
   data_["answer"] = answer_json(answer, planner.mast());
-  add_landscape(answer, planner);
-  add_voxel_gains(T_map_sensor(answer.request, planner.mast(), answer.joints), planner);
-}
-
-void MapPage::add_landscape(const AnswerFile& answer, const ViewPlanner& planner) {
-  PlanResult result;
-  result.request = answer.request;
-  result.joints = answer.joints;
-  result.box = planner.reachable_box(answer.request);
-  const Landscape landscape = planner.landscape(result);
-  data_["landscape"] = {{"height_m", landscape.height_m},
-                        {"pan_rad", landscape.pan_rad},
-                        {"tilt_rad", landscape.tilt_rad}};
-  blocks_.push_back({"landscape-gains", packed_numbers(landscape.gain)});
-}
-
-void MapPage::add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner) {
-  const SensorOptions& sensor = planner.robot().sensor;
-  // Other gains look at all that lies on a ray, or are not of voxels.
-  if (planner.evaluator() != "exact" || sensor.gain != GainKind::positive) return;
-  std::vector<double> numbers;
-  const std::vector<VoxelGain> gains = voxel_gains(*planner.grid(), sensor, T_map_sensor);
-  for (const VoxelGain& voxel : gains) {
-    const Eigen::Vector3d key = Eigen::Vector3d(voxel.key.x, voxel.key.y, voxel.key.z);
-    numbers.insert(numbers.end(), {key.x(), key.y(), key.z(), voxel.gain,
-                                   voxel.kind == HitKind::occupied ? 1.0 : 0.0});
-  }
-  data_["voxel_gains"] = {{"count", gains.size()}};
-  blocks_.push_back({"voxel-gains", packed_numbers(numbers)});
+  ViewGains gains = view_gains(answer, planner);
+  data_.update(gains.data);
+  std::ranges::move(gains.blocks, std::back_inserter(blocks_));
 }
 
 void MapPage::add_episode(const std::vector<EpisodeCapture>& captures, const VoxelGrid& grid,

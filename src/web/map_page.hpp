@@ -26,8 +26,8 @@ class MapPage {
   MapPage(const std::string& name, const UncertaintyMap& map, const std::optional<KeyBox>& box);
 
   /// The robot, the view that it has and the one that the answer chooses, the gain over pan and
-  /// tilt around it, and of the exact positive gain the voxels that it comes from; `planner` has
-  /// the map. Throws InputError where the answer's request cannot be one to the planner's robot.
+  /// tilt around it, and the voxels that it comes from; `planner` has the map. Throws InputError
+  /// where the answer's request cannot be one to the planner's robot.
   void add_answer(const AnswerFile& answer, const ViewPlanner& planner);
 
   /// The drive of an episode whose map this is, and when it first saw which voxel; `grid` is the
@@ -45,9 +45,6 @@ class MapPage {
   std::string html() const;
 
  private:
-  void add_landscape(const AnswerFile& answer, const ViewPlanner& planner);
-  void add_voxel_gains(const Transform& T_map_sensor, const ViewPlanner& planner);
-
   std::string name_;
   SurfaceMesh mesh_;
   Json data_;

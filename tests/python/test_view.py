@@ -85,6 +85,18 @@ class ViewTest(BrowserTest):
         self.assertRegex(self.text("tip"), r"^gain \d+\.\d\d of at most .*\nfrom the unknown$")
         self.assert_quiet()
 
+    def test_tells_by_which_gain_or_why_not(self):
+        for gain, told in (("occlusion_aware", "by the gain occlusion_aware"),
+                           ("average_entropy", "the gain average_entropy is no sum over voxels: "
+                                               "none has a part in it")):
+            page = f"{self.folder.name}/{gain}.html"
+            run_cli("view", OFFICE, "--answer", self.answer, "--gain", gain, "-o", page)
+            self.open(f"file://{page}")
+            self.assertEqual(self.text("voxel-gains-facts"), told)
+            self.assertEqual(self.browser.find_element(By.ID, "show-gains").is_enabled(),
+                             told.startswith("by"))
+            self.assert_quiet()
+
     def test_tells_the_gain_under_the_pointer(self):
         self.open(self.page)
         self.assertRegex(self.text("landscape-value"), r"^gain 0.0 \(dark\) to \d+\.\d;")

@@ -86,8 +86,9 @@ class ViewPlanner {
                                  const StopRule& stop = {}) const;
 
   /// The gain around an answer of this planner, over the reachable pans and tilts at its height: a
-  /// view every 0.05 rad, on all cores, or as dense as 20,000 views allow.
-  Landscape landscape(const PlanResult& result) const;
+  /// view every 0.05 rad, or as dense as 20,000 views allow. `threads` and `stop` as in
+  /// evaluate_views(): views that were left out gain NaN.
+  Landscape landscape(const PlanResult& result, int threads = 0, const StopRule& stop = {}) const;
 
   /// The reachable joint positions of a request, obstacles included, as in PlanResult::box.
   JointBox reachable_box(const PlanRequest& request) const;

@@ -3,11 +3,13 @@
 
 const gains = {};
 
+const kStates = ["the unknown", "free space", "a surface"];  // as VoxelState numbers them
+
 /** The voxels that a view's gain comes from as coloured cubes, and what the pointer tells of them. */
-gains.voxels = async () => {
-  const numbers = new Float32Array(await page.bytes("voxel-gains"));
+gains.voxels = bytes => {
+  const numbers = new Float32Array(bytes);
   const {resolution_m, key_of_origin} = page.data.map;
-  const kNumbers = 5;  // x, y, z, gain, 1 for occupied
+  const kNumbers = 5;  // x, y, z, gain, state
   const count = numbers.length / kNumbers;
   let greatest = 0;
   for (let i = 0; i < count; ++i) greatest = Math.max(greatest, numbers[kNumbers * i + 3]);
@@ -30,10 +32,16 @@ gains.voxels = async () => {
   const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({vertexColors: THREE.VertexColors}));
   const tell = hit => {
     const i = Math.floor(3 * hit.faceIndex / corners);
-    const kind = numbers[kNumbers * i + 4] ? "a badly seen surface" : "the unknown";
-    return `gain ${numbers[kNumbers * i + 3].toFixed(2)} of at most ${greatest.toFixed(2)}\nfrom ${kind}`;
+    return `gain ${numbers[kNumbers * i + 3].toFixed(2)} of at most ${greatest.toFixed(2)}\n`
+      + `from ${kStates[numbers[kNumbers * i + 4]]}`;
   };
   return {mesh, tell};
+};
+
+/** Tells of which gain the voxels are, or why none has a part in it. */
+gains.tellVoxels = ({gain, why_none: whyNone}) => {
+  page.element("show-gains").disabled = !!whyNone;
+  page.element("voxel-gains-facts").textContent = whyNone || `by the gain ${gain}`;
 };
 
 /** T_map_sensor of joints on the base of a view, column by column, where the camera has no offset. */
@@ -49,22 +57,11 @@ const cameraMatrix = (view, pan_rad, tilt_rad, height_m) => {
 /** Whether two matrices are the same to a tenth of a millimetre. */
 const isSame = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < 1e-4);
 
-/**
- * Draws the landscape and tells the gain under the pointer. `tried` is an object in the scene that
- * is placed where such a view would look; hidden where nothing is pointed at.
- */
-gains.landscape = async (answer, tried) => {
-  const {pan_rad, tilt_rad, height_m} = page.data.landscape;
-  const gain = new Float32Array(await page.bytes("landscape-gains"));
-  const greatest = gain.reduce((a, b) => Math.max(a, b), 0);
-  const least = gain.reduce((a, b) => Math.min(a, b), 0);
-  const canvas = page.element("landscape-map");
-  const value = page.element("landscape-value");
-  page.element("landscape-height").textContent = page.shown(height_m, 3, " m");
-  page.element("pan-min").textContent = page.shown(pan_rad[0], 2, " rad");
-  page.element("pan-max").textContent = page.shown(pan_rad[pan_rad.length - 1], 2, " rad");
+/** What is drawn: see gains.showLandscape. */
+let landscape = null;
 
-  // The gains as a picture, tilt upwards; then what is marked on it.
+/** The gains as a picture, tilt upwards. */
+const pictureOf = ({pan_rad, tilt_rad, gain, least, greatest}) => {
   const picture = document.createElement("canvas");
   [picture.width, picture.height] = [pan_rad.length, tilt_rad.length];
   const image = new ImageData(picture.width, picture.height);
@@ -75,56 +72,90 @@ gains.landscape = async (answer, tried) => {
     image.data.set([...page.rampColour("viridis", share), 255], 4 * (row * picture.width + column));
   });
   picture.getContext("2d").putImageData(image, 0, 0);
+  return picture;
+};
 
+/** Draws the picture, and the answer's views on it. */
+const drawLandscape = () => {
+  if (!landscape) return;
+  const {pan_rad, tilt_rad, answer} = landscape;
+  const canvas = page.element("landscape-map");
+  const scale = Math.min(devicePixelRatio, 2);
+  canvas.width = canvas.clientWidth * scale;
+  canvas.height = canvas.clientHeight * scale;
+  const brush = canvas.getContext("2d");
+  brush.imageSmoothingEnabled = false;
+  brush.drawImage(landscape.picture, 0, 0, canvas.width, canvas.height);
   const place = (axis, at) => axis.length < 2 ? 0.5
     : (0.5 + (at - axis[0]) / (axis[axis.length - 1] - axis[0]) * (axis.length - 1)) / axis.length;
-  const draw = () => {
-    const scale = Math.min(devicePixelRatio, 2);
-    canvas.width = canvas.clientWidth * scale;
-    canvas.height = canvas.clientHeight * scale;
-    const brush = canvas.getContext("2d");
-    brush.imageSmoothingEnabled = false;
-    brush.drawImage(picture, 0, 0, canvas.width, canvas.height);
-    for (const [view, colour] of [[answer.current, "#e4e7eb"], [answer.chosen, "#ffffff"]]) {
-      const x = place(pan_rad, view.joints.pan_rad) * canvas.width;
-      const y = (1 - place(tilt_rad, view.joints.tilt_rad)) * canvas.height;
-      const isChosen = view === answer.chosen;
-      for (const [width, stroke] of [[4, "#1f2933"], [1.8, colour]]) {
-        brush.lineWidth = width * scale;
-        brush.strokeStyle = stroke;
-        brush.setLineDash(isChosen ? [] : [3 * scale, 2 * scale]);
-        brush.beginPath();
-        brush.arc(x, y, 6 * scale, 0, 2 * Math.PI);
-        brush.stroke();
-      }
+  for (const [view, colour] of [[answer.current, "#e4e7eb"], [answer.chosen, "#ffffff"]]) {
+    const x = place(pan_rad, view.joints.pan_rad) * canvas.width;
+    const y = (1 - place(tilt_rad, view.joints.tilt_rad)) * canvas.height;
+    const isChosen = view === answer.chosen;
+    for (const [width, stroke] of [[4, "#1f2933"], [1.8, colour]]) {
+      brush.lineWidth = width * scale;
+      brush.strokeStyle = stroke;
+      brush.setLineDash(isChosen ? [] : [3 * scale, 2 * scale]);
+      brush.beginPath();
+      brush.arc(x, y, 6 * scale, 0, 2 * Math.PI);
+      brush.stroke();
     }
-  };
-  draw();
-  addEventListener("resize", draw);
+  }
+};
 
-  const rest = () => {
-    value.textContent = `gain ${page.shown(least, 1)} (dark) to ${page.shown(greatest, 1)}; `
-      + "dashed: now, ring: chosen";
-    tried.visible = false;
-    page.redraw();
-  };
-  const {current, chosen} = answer;
-  const isUsualMast = [current, chosen].every(view => isSame(view.T_map_sensor, cameraMatrix(view,
-    view.joints.pan_rad, view.joints.tilt_rad, view.joints.height_m)));
-  const point = (column, row) => {
-    value.textContent = `pan ${page.shown(pan_rad[column], 2)}, tilt ${page.shown(tilt_rad[row], 2)} rad: `
-      + `gain ${page.shown(gain[row * pan_rad.length + column], 1)}`;
-    if (!isUsualMast) return;
-    views.place(tried, cameraMatrix(chosen, pan_rad[column], tilt_rad[row], height_m));
-    tried.visible = true;
-    page.redraw();
-  };
+const tellLandscape = text => { page.element("landscape-value").textContent = text; };
+
+/** Tells the range of the gains; nothing is pointed at. */
+const rest = () => {
+  if (!landscape) return;
+  tellLandscape(`gain ${page.shown(landscape.least, 1)} (dark) to `
+    + `${page.shown(landscape.greatest, 1)}; dashed: now, ring: chosen`);
+  landscape.tried.visible = false;
+  page.redraw();
+};
+
+/** Tells the gain of a view, and outlines it in the map where the camera has no offset. */
+const point = (column, row) => {
+  const {pan_rad, tilt_rad, height_m, gain, answer, tried, isUsualMast} = landscape;
+  tellLandscape(`pan ${page.shown(pan_rad[column], 2)}, tilt ${page.shown(tilt_rad[row], 2)} rad: `
+    + `gain ${page.shown(gain[row * pan_rad.length + column], 1)}`);
+  if (!isUsualMast) return;
+  views.place(tried, cameraMatrix(answer.chosen, pan_rad[column], tilt_rad[row], height_m));
+  tried.visible = true;
+  page.redraw();
+};
+
+/** Lets people point at the landscape. */
+gains.watchLandscape = () => {
+  const canvas = page.element("landscape-map");
   const cell = (share, count) => Math.min(count - 1, Math.max(0, Math.floor(share * count)));
   canvas.addEventListener("pointermove", event => {
+    if (!landscape) return;
     const frame = canvas.getBoundingClientRect();
-    point(cell((event.clientX - frame.left) / frame.width, pan_rad.length),
-      cell((frame.bottom - event.clientY) / frame.height, tilt_rad.length));
+    point(cell((event.clientX - frame.left) / frame.width, landscape.pan_rad.length),
+      cell((frame.bottom - event.clientY) / frame.height, landscape.tilt_rad.length));
   });
   canvas.addEventListener("pointerleave", rest);
+  addEventListener("resize", drawLandscape);
+};
+
+/**
+ * Draws a landscape in place of the one before. `axes`: {pan_rad, tilt_rad, height_m}; `bytes` its
+ * gains; `tried` is an object in the scene that is placed where a view that is pointed at looks.
+ */
+gains.showLandscape = (axes, bytes, answer, tried) => {
+  const gain = new Float32Array(bytes);
+  const {pan_rad, height_m} = axes;
+  const {current, chosen} = answer;
+  landscape = {...axes, gain, answer, tried,
+    greatest: gain.reduce((a, b) => Math.max(a, b), 0),
+    least: gain.reduce((a, b) => Math.min(a, b), 0),
+    isUsualMast: [current, chosen].every(view => isSame(view.T_map_sensor, cameraMatrix(view,
+      view.joints.pan_rad, view.joints.tilt_rad, view.joints.height_m)))};
+  landscape.picture = pictureOf(landscape);
+  page.element("landscape-height").textContent = page.shown(height_m, 3, " m");
+  page.element("pan-min").textContent = page.shown(pan_rad[0], 2, " rad");
+  page.element("pan-max").textContent = page.shown(pan_rad[pan_rad.length - 1], 2, " rad");
+  drawLandscape();
   rest();
 };

@@ -123,8 +123,25 @@
   showAnswer();
   // A map without free space, or all of whose surfaces look outward, has backs alone.
   if (!following && surface.count(all, "seen") < surface.count(all, "backs") / 20) page.element("show-backs").click();
-  const voxels = page.data.voxel_gains && await gains.voxels();
-  if (voxels) show("gains", voxels.mesh);
+  let voxels = null;
+  let tried = null;
+  /** Shows what page.data has of gains; `bytes(id)` gives the blocks. */
+  const showGains = async bytes => {
+    const {landscape, voxel_gains: told, answer, camera} = page.data;
+    if (told) {
+      gains.tellVoxels(told);
+      voxels = told.why_none ? null : gains.voxels(await bytes("voxel-gains"));
+      if (voxels) show("gains", voxels.mesh);
+      else hide("gains");
+    }
+    if (!landscape) return;
+    if (!tried) {
+      tried = views.frustum(camera, {colour: new THREE.Color(page.styleColour("--tried"))});
+      scene.add(tried);
+      gains.watchLandscape();
+    }
+    gains.showLandscape(landscape, await bytes("landscape-gains"), answer, tried);
+  };
   const drive = page.data.episode && await episode.unpack();
   if (drive) show("drive", episode.objects(drive, page.data.camera));
 
@@ -243,11 +260,7 @@
   canvas.addEventListener("pointerleave", () => page.showTip(""));
 
   if (drive) episode.play(drive, shown.drive, shared);
-  if (page.data.landscape) {
-    const tried = views.frustum(page.data.camera, {colour: new THREE.Color(page.styleColour("--tried"))});
-    scene.add(tried);
-    await gains.landscape(page.data.answer, tried);
-  }
+  await showGains(page.bytes);
   if (following) {
     let hasBeenMoved = false;  // by a person: the view is then theirs
     controls.addEventListener("start", () => { hasBeenMoved = true; });
