@@ -97,6 +97,16 @@ class ViewTest(BrowserTest):
                              told.startswith("by"))
             self.assert_quiet()
 
+    def test_folds_its_settings_where_the_window_is_narrow(self):
+        self.browser.set_window_size(500, 800)
+        self.addCleanup(self.browser.set_window_size, 1000, 800)
+        self.open(self.page)
+        settings = self.browser.find_element(By.ID, "show-seen")
+        self.assertFalse(settings.is_displayed())
+        self.click("fold")
+        self.assertTrue(settings.is_displayed())
+        self.assert_quiet()
+
     def test_tells_the_gain_under_the_pointer(self):
         self.open(self.page)
         self.assertRegex(self.text("landscape-value"), r"^gain 0.0 \(dark\) to \d+\.\d;")

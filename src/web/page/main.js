@@ -197,11 +197,14 @@
     eye.near = Math.max(1e-3 * reach_m, 0.2 * resolution_m);
     eye.updateProjectionMatrix();
   };
-  const first = () => {
+  /** Looks at all from a direction, from farther away where the window is narrow. */
+  const lookFrom = (x, y, z) => {
     measure();
-    look(centre.clone().add(new THREE.Vector3(-0.75, -1.1, 1.25).multiplyScalar(1.05 * reach_m)), centre);
+    const distance_m = reach_m * Math.max(1, 1 / eye.aspect);
+    look(centre.clone().add(new THREE.Vector3(x, y, z).multiplyScalar(distance_m)), centre);
   };
-  const above = () => look(centre.clone().add(new THREE.Vector3(0, -1e-3, 2.2).multiplyScalar(reach_m)), centre);
+  const first = () => lookFrom(-0.79, -1.16, 1.31);
+  const above = () => lookFrom(0, -1e-3, 2.2);
   const throughCamera = () => {
     if (!page.data.answer) return;
     const T_map_sensor = new THREE.Matrix4().fromArray(page.data.answer.chosen.T_map_sensor);
@@ -212,7 +215,7 @@
     renderer.setSize(innerWidth, innerHeight, false);
     eye.aspect = innerWidth / innerHeight;
     // What matters stands in the middle of what the panels leave free.
-    const covered = innerWidth > 700 ? 316 : 0;
+    const covered = innerWidth > 700 ? page.element("panel").getBoundingClientRect().right + 12 : 0;
     const coveredBelow = drive ? 140 : 0;
     eye.setViewOffset(innerWidth, innerHeight, -covered / 2, coveredBelow / 2, innerWidth, innerHeight);
     eye.updateProjectionMatrix();
@@ -222,6 +225,8 @@
   resize();
   first();
 
+  page.element("fold").addEventListener("click", () =>
+    page.element("panel").classList.toggle("folded"));
   addEventListener("keydown", event => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === " " && drive && event.target.tagName !== "INPUT" && event.target.tagName !== "BUTTON") {
