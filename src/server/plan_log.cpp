@@ -6,10 +6,11 @@
 
 namespace nbvopt {
 
-void PlanLog::record(std::shared_ptr<const PlanResult> plan) {
+void PlanLog::record(std::shared_ptr<const PlanResult> plan, const GainChoice& gain) {
   ++counts_.at(static_cast<std::size_t>(plan->status));
   const std::scoped_lock lock(mutex_);
   newest_.plan.swap(plan);  // the one before, if nobody shows it, goes after the lock
+  newest_.gain = gain;
   ++newest_.number;
 }
 

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "nbvopt/planner/plan.hpp"
+#include "nbvopt/sensor/gain_choice.hpp"
 #include "nbvopt/v1/planner.pb.h"
 
 namespace nbvopt {
@@ -15,11 +16,13 @@ namespace nbvopt {
 /// Safe to share between threads.
 class PlanLog {
  public:
-  void record(std::shared_ptr<const PlanResult> plan);
+  /// `gain` is what its views were judged by.
+  void record(std::shared_ptr<const PlanResult> plan, const GainChoice& gain);
 
   struct Newest {
     std::shared_ptr<const PlanResult> plan;  ///< null: there is none yet
-    std::uint64_t number = 0;                ///< of all plans, from 1 on
+    GainChoice gain;
+    std::uint64_t number = 0;  ///< of all plans, from 1 on
   };
   Newest newest() const;
 

@@ -15,6 +15,7 @@
 #include "protocol/plan_messages.hpp"
 #include "protocol/pose_messages.hpp"
 #include "server/call_status.hpp"
+#include "server/planner_by_gain.hpp"
 #include "server/versions.hpp"
 
 namespace nbvopt {
@@ -90,12 +91,8 @@ void RequestHandler::check_size(const google::protobuf::Message& message) const 
 }
 
 std::shared_ptr<const ViewPlanner> RequestHandler::planner_by(const std::string* gain) const {
-  std::shared_ptr<const ViewPlanner> planner = store_.published();
-  if (gain == nullptr) return planner;
-  Robot robot = planner->robot();
-  robot.sensor.gain = gain_from_text(*gain, "gain");
-  if (robot.sensor.gain == planner->robot().sensor.gain) return planner;
-  return std::make_shared<const ViewPlanner>(planner->grid(), robot, planner->hazards());
+  if (gain == nullptr) return store_.published();
+  return planner_by_gain(store_.published(), gain_from_text(*gain, "gain"));
 }
 
 v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_point received,
@@ -113,7 +110,7 @@ v1::PlanReply RequestHandler::plan(const v1::PlanRequest& message, Clock::time_p
     stop_at_latest(request.stop, received, limit_ms);
   }
   const auto result = std::make_shared<const PlanResult>(planner->plan(request, *solver));
-  plans_.record(result);
+  plans_.record(result, planner->robot().sensor.gain);
   v1::PlanReply reply = to_message(*result);
   reply.set_counting(to_string(planner->robot().sensor.counting));
   reply.set_gain(to_string(planner->robot().sensor.gain));

@@ -12,6 +12,10 @@ import threading
 import unittest
 import urllib.request
 
+try:
+    from selenium.webdriver.common.action_chains import ActionChains
+except ImportError:
+    pass  # BrowserTest skips
 from browser import HOSTILE, BrowserTest
 from nbvopt_client import PlannerClient
 from served import Server
@@ -114,6 +118,33 @@ class LivePageTest(BrowserTest):
             self.assertEqual(self.first_look(), grown)
             planner.clear_map()
             self.wait_until(lambda: "nothing is known" in self.text("notice"))
+        self.assert_quiet()
+
+    def test_shows_what_views_and_voxels_gain(self):
+        server = self.serve(str(OFFICE))
+        self.open(server.web)
+        self.click("ask-gains")
+        self.wait_until(lambda: self.text("gains-facts") == "there is no plan yet")
+        with PlannerClient(server.address) as planner:
+            near = {**BESIDE_DESK, "motion_time_s": 0.2, "max_evaluations": 50}  # few views to judge
+            planner.plan(**near)
+            self.wait_until(lambda: "of plan 1, judged on map version 1" in self.text("gains-facts"))
+            self.wait_until(lambda: "(dark) to" in self.text("landscape-value"))
+            before = self.look()
+            landscape = self.browser.find_element("id", "landscape-map")
+            ActionChains(self.browser).move_to_element_with_offset(landscape, 60, 10).perform()
+            self.assertRegex(self.text("landscape-value"), r"^pan .* rad: gain \d+\.\d$")
+            self.assertGreater(self.look()["drawn"], before["drawn"])  # such a view is outlined
+            self.assertEqual(self.text("voxel-gains-facts"), "by the gain expected")
+            colours = self.look()["colours"]
+            self.click("show-gains")
+            self.assertNotEqual(self.look()["colours"], colours)
+            planner.plan(**near, gain="average_entropy")
+            self.wait_until(lambda: "no sum over voxels" in self.text("voxel-gains-facts"))
+            self.assertFalse(self.browser.find_element("id", "show-gains").is_enabled())
+        self.click("ask-gains")
+        self.assertFalse(self.browser.find_element("id", "landscape").is_displayed())
+        self.assertEqual(self.text("gains-facts"), "")
         self.assert_quiet()
 
     def test_runs_no_text_of_a_map(self):

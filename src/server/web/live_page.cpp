@@ -1,6 +1,5 @@
 #include "server/web/live_page.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -10,17 +9,9 @@
 #include "web/page.hpp"
 
 namespace nbvopt {
-namespace {
-
-/// On one line, whatever names and messages hold.
-std::string line_of(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
-}  // namespace
 
 LivePage::LivePage(LiveSources sources, std::chrono::milliseconds least_pause)
-    : sources_(std::move(sources)), least_pause_(least_pause) {
+    : sources_(std::move(sources)), gains_(sources_, least_pause), pace_(least_pause) {
   const std::shared_ptr<const ViewPlanner> planner = sources_.published();
   const Robot& robot = planner->robot();
   const Json data{
@@ -57,16 +48,14 @@ std::optional<std::uint64_t> LivePage::version_of(std::string_view id) const {
 }
 
 void LivePage::keep_up() {
-  constexpr int kShare = 4;  // of the time that it took
   const std::shared_ptr<const VoxelGrid> grid = sources_.published()->grid();
-  const Clock::time_point start = Clock::now();
-  if (surface_.version() == grid->version() || start < next_) return;
+  const auto start = MakingPace::Clock::now();
+  if (surface_.version() == grid->version() || !pace_.allows(start)) return;
   surface_.show(grid);
   map_json_ =
       map_json(sources_.title, grid->lattice(), grid->carries_uncertainty(), surface_.counts());
   if (readers_ == 0) surface_.forget_grid();
-  const Clock::time_point end = Clock::now();
-  next_ = end + std::max<Clock::duration>(least_pause_, kShare * (end - start));
+  pace_.took(start, MakingPace::Clock::now());
 }
 
 SharedBytes LivePage::map(const std::string& since) {

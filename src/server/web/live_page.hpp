@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,19 +12,12 @@
 
 #include "core/json.hpp"
 #include "core/shared_bytes.hpp"
-#include "nbvopt/planner/view_planner.hpp"
-#include "server/plan_log.hpp"
+#include "server/web/live_gains.hpp"
+#include "server/web/live_sources.hpp"
+#include "server/web/making_pace.hpp"
 #include "web/growing_surface.hpp"
 
 namespace nbvopt {
-
-/// Where the page looks. Called by any thread.
-struct LiveSources {
-  std::string title;
-  std::uint64_t run_id = 0;  ///< of GetStatus
-  std::function<std::shared_ptr<const ViewPlanner>()> published;
-  std::function<PlanLog::Newest()> newest_plan;
-};
 
 /// What there is to show: equal where nothing is new.
 struct LiveVersion {
@@ -53,10 +45,15 @@ class LivePage {
   /// JSON for a reader that shows the map of the id `since` (any other text: none): `id`, that of
   /// the map which this makes; `map` as map_json() has it; `bricks`, the members of
   /// GrowingSurface::members() that changed; `is_whole`, where those are all there are. Surfaces
-  /// are made when somebody asks, once for all who do; when that takes long an older map is given,
-  /// so that no more than a fifth of a core goes into it. Where the map is too large, `error` says
-  /// so instead.
+  /// are made when somebody asks, once for all who do, at the pace of MakingPace: an older map is
+  /// given meanwhile. Where the map is too large, `error` says so instead.
   SharedBytes map(const std::string& since = "");
+
+  /// See LiveGains::newest().
+  std::shared_ptr<const std::string> gains() { return gains_.newest(); }
+
+  /// The server ends: what takes long is left out.
+  void end() const { gains_.end(); }
 
   /// Somebody who follows the page. While there is one, the last grid is kept to compare the next
   /// with; the page must outlive it.
@@ -72,8 +69,6 @@ class LivePage {
   };
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::string id_of(std::uint64_t map_version) const;
   /// The version of such an id; none of another server's.
   std::optional<std::uint64_t> version_of(std::string_view id) const;
@@ -81,15 +76,15 @@ class LivePage {
   void end_reader();
 
   const LiveSources sources_;
-  const std::chrono::milliseconds least_pause_;
   std::shared_ptr<const std::string> html_;
 
+  LiveGains gains_;
   std::atomic<int> readers_{0};
 
   std::mutex making_;  ///< of what follows; held while surfaces are made
   GrowingSurface surface_;
   Json map_json_;
-  Clock::time_point next_ = Clock::time_point::min();
+  MakingPace pace_;
 };
 
 }  // namespace nbvopt

@@ -159,6 +159,8 @@ struct WebServer::Parts {
       give(response, SharedBytes(page.html()), "text/html; charset=utf-8");
     } else if (request.path == "/map") {
       give(response, page.map(request.get_param_value("since")), "application/json");
+    } else if (request.path == "/gains") {
+      give(response, SharedBytes(page.gains()), "application/json");
     } else if (request.path == "/events") {
       tell(response);
     } else if (request.path == "/metrics") {
@@ -189,6 +191,7 @@ struct WebServer::Parts {
     std::error_code ignored;
     if (address.socket) std::filesystem::remove(*address.socket, ignored);
     http.end_answers();
+    page.end();
     open.end_all();
   }
 

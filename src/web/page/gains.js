@@ -140,10 +140,13 @@ gains.watchLandscape = () => {
 };
 
 /**
- * Draws a landscape in place of the one before. `axes`: {pan_rad, tilt_rad, height_m}; `bytes` its
- * gains; `tried` is an object in the scene that is placed where a view that is pointed at looks.
+ * Draws a landscape in place of the one before. `axes`: {pan_rad, tilt_rad, height_m}, none for no
+ * landscape; `bytes` its gains; `tried` is an object in the scene that is placed where a view that is pointed at looks.
  */
 gains.showLandscape = (axes, bytes, answer, tried) => {
+  landscape = null;
+  tried.visible = false;
+  if (!axes) return;
   const gain = new Float32Array(bytes);
   const {pan_rad, height_m} = axes;
   const {current, chosen} = answer;

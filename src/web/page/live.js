@@ -43,6 +43,23 @@ live.update = async put => {
   shownMap = id;
 };
 
+/** The number of the plan whose gains are shown, as `plan` below; none while nobody asked. */
+let gainsPlan = "";
+
+/** Fetches the gains of the newest plan into the page's data: a function that gives the blocks. */
+const fetchGains = async () => {
+  const response = await fetch("gains");
+  if (!response.ok) throw new Error(await response.text());
+  const {plan, error, answer, landscape, voxel_gains, map_version, blocks} = await response.json();
+  gainsPlan = `${state.map.split("-")[0]}-${plan}`;
+  page.element("gains-facts").textContent = plan === 0 ? "there is no plan yet"
+    : error || `of plan ${plan}, judged on map version ${map_version}`
+      + (landscape ? "" : "; the landscape takes too long here: ask nbvopt view for it");
+  Object.assign(page.data, {landscape, voxel_gains});
+  page.showParts();
+  return {answer, bytes: id => page.unpack(blocks && blocks[id])};
+};
+
 /** Shows the first map; the server knows from then on that somebody follows it. */
 live.first = async put => {
   listen();
@@ -56,8 +73,9 @@ const tellState = () => {
 };
 
 /** Follows the server for ever: puts what changed into the map, and shows answers as they come. */
-live.follow = ({putBricks, showAnswer}) => {
+live.follow = ({putBricks, showAnswer, showGains}) => {
   const kPause_ms = 100;
+  const kGainsPause_ms = 500;
   const kPauseAfterError_ms = 5000;
   let isFetching = false;
   let plan = "";
@@ -79,6 +97,34 @@ live.follow = ({putBricks, showAnswer}) => {
       keepUp();
     }, pause_ms);
   };
+  // Gains cost the server time: they are asked for while somebody wants to see them.
+  const wish = page.element("ask-gains");
+  let isAsking = false;
+  const withdrawGains = () => {
+    gainsPlan = "";
+    page.element("gains-facts").textContent = "";
+    Object.assign(page.data, {landscape: null, voxel_gains: null});
+    page.showParts();
+    showGains(null, () => new ArrayBuffer(0));
+  };
+  const keepUpWithGains = async () => {
+    if (isAsking || !wish.checked || gainsPlan === plan) return;
+    isAsking = true;
+    let pause_ms = kGainsPause_ms;
+    try {
+      const {answer, bytes} = await fetchGains();
+      await showGains(answer, bytes);
+      if (!wish.checked) withdrawGains();  // meanwhile
+    } catch (error) {
+      page.element("gains-facts").textContent = "they cannot be shown: " + error.message;
+      pause_ms = kPauseAfterError_ms;
+    }
+    setTimeout(() => {
+      isAsking = false;
+      keepUpWithGains();
+    }, pause_ms);
+  };
+  wish.addEventListener("change", () => wish.checked ? keepUpWithGains() : withdrawGains());
   onState = () => {
     const newest = `${state.map.split("-")[0]}-${state.plan}`;  // of this run of the server
     if (plan !== newest) {
@@ -89,6 +135,7 @@ live.follow = ({putBricks, showAnswer}) => {
     }
     tellState();
     keepUp();
+    keepUpWithGains();
   };
   if (state) onState();
 };

@@ -45,9 +45,8 @@
   const shown = {};
   const shared = faces.sharedUniforms();
   const follow = name => {
-    const isOn = page.element("show-" + name).checked;
-    if (!shown[name]) return;
-    shown[name].visible = isOn;
+    const isOn = page.element("show-" + name).checked && !!shown[name];
+    if (shown[name]) shown[name].visible = isOn;
     if (name === "gains") shared.fade.value = isOn ? 0.7 : 0;  // colours tell one thing
     page.redraw();
   };
@@ -56,7 +55,7 @@
     scene.remove(shown[name]);
     faces.forget(shown[name]);
     delete shown[name];
-    page.redraw();
+    follow(name);
   };
   const show = (name, object) => {
     hide(name);
@@ -125,16 +124,13 @@
   if (!following && surface.count(all, "seen") < surface.count(all, "backs") / 20) page.element("show-backs").click();
   let voxels = null;
   let tried = null;
-  /** Shows what page.data has of gains; `bytes(id)` gives the blocks. */
-  const showGains = async bytes => {
-    const {landscape, voxel_gains: told, answer, camera} = page.data;
-    if (told) {
-      gains.tellVoxels(told);
-      voxels = told.why_none ? null : gains.voxels(await bytes("voxel-gains"));
-      if (voxels) show("gains", voxels.mesh);
-      else hide("gains");
-    }
-    if (!landscape) return;
+  /** Shows what page.data has of gains around an answer; `bytes(id)` gives the blocks. */
+  const showGains = async (answer, bytes) => {
+    const {landscape, voxel_gains: told, camera} = page.data;
+    if (told) gains.tellVoxels(told);
+    voxels = told && !told.why_none ? gains.voxels(await bytes("voxel-gains")) : null;
+    if (voxels) show("gains", voxels.mesh);
+    else hide("gains");
     if (!tried) {
       tried = views.frustum(camera, {colour: new THREE.Color(page.styleColour("--tried"))});
       scene.add(tried);
@@ -265,7 +261,7 @@
   canvas.addEventListener("pointerleave", () => page.showTip(""));
 
   if (drive) episode.play(drive, shown.drive, shared);
-  await showGains(page.bytes);
+  if (page.data.answer) await showGains(page.data.answer, page.bytes);
   if (following) {
     let hasBeenMoved = false;  // by a person: the view is then theirs
     controls.addEventListener("start", () => { hasBeenMoved = true; });
@@ -284,6 +280,7 @@
         cutAbove();
         keepInView();
       },
+      showGains,
       showAnswer: () => {
         showAnswer();
         keepInView();

@@ -7,6 +7,8 @@
 #include "server/web/event_stream.hpp"
 #include "server/web/live_world.hpp"
 #include "support/wait_until.hpp"
+#include "web/answer_json.hpp"
+#include "web/view_gains.hpp"
 
 namespace nbvopt {
 namespace {
@@ -114,6 +116,47 @@ TEST_F(LivePageTest, KeepsAGridForReadersAlone) {
   EXPECT_TRUE(second.expired());
 }
 
+class LiveGainsTest : public LivePageTest {
+ protected:
+  static Json told(LiveGains& gains) { return parse_json(*gains.newest(), "gains"); }
+};
+
+TEST_F(LiveGainsTest, TellsWhatViewsAndVoxelsGainAroundTheNewestPlan) {
+  LiveGains gains(world.sources(), std::chrono::milliseconds(0));
+  EXPECT_EQ(told(gains), Json({{"plan", 0}}));
+  world.plan("first");
+  const auto first = gains.newest();
+  EXPECT_EQ(gains.newest(), first);  // once for all who ask
+  const Json json = parse_json(*first, "gains");
+  const auto planner = world.store.published();
+  const AnswerFile answer = answer_of(*world.plans.newest().plan);
+  const ViewGains expected = view_gains(answer, *planner);
+  EXPECT_EQ(json["plan"], 1);
+  EXPECT_EQ(json["map_version"], 1);
+  EXPECT_EQ(json["answer"]["chosen"]["gain"], answer.gain);
+  EXPECT_EQ(json["landscape"], expected.data["landscape"]);
+  ASSERT_EQ(expected.blocks.size(), 2U);
+  for (const PageBlock& block : expected.blocks) EXPECT_EQ(json["blocks"][block.id], block.base64);
+}
+
+TEST_F(LiveGainsTest, JudgesByThePlansGain) {
+  LiveGains gains(world.sources(), std::chrono::milliseconds(0));
+  world.plan("first", GainKind::average_entropy);
+  EXPECT_THAT(told(gains)["voxel_gains"]["why_none"].get<std::string>(),
+              HasSubstr("average_entropy is no sum over voxels"));
+  EXPECT_FALSE(told(gains)["blocks"].contains("voxel-gains"));
+}
+
+TEST_F(LiveGainsTest, LeavesOutWhatTakesTooLongAndMakesNothingTooOften) {
+  LiveGains gains(world.sources(), std::chrono::hours(1), 0.0);
+  world.plan("first");
+  const Json json = told(gains);
+  EXPECT_FALSE(json.contains("landscape"));
+  EXPECT_TRUE(json["blocks"].contains("voxel-gains"));
+  world.plan("second");
+  EXPECT_EQ(told(gains)["plan"], 1);
+}
+
 class EventStreamTest : public LivePageTest {
  protected:
   /// What a turn sends; empty for nothing.
@@ -146,7 +189,7 @@ TEST_F(EventStreamTest, TellsTheNewestOfAMillion) {
   turn();
   const auto plan = std::make_shared<const PlanResult>(
       world.store.published()->plan(test::small_request(), *make_solver("random", {})));
-  for (int i = 0; i < 1'000'000; ++i) world.plans.record(plan);
+  for (int i = 0; i < 1'000'000; ++i) world.plans.record(plan, GainKind::positive);
   EXPECT_EQ(plan.use_count(), 2);  // here and as the newest
   EXPECT_THAT(turn(), HasSubstr("\"plan\":1000000,"));
   EXPECT_EQ(turn(), "");

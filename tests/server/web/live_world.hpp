@@ -20,11 +20,11 @@ class LiveWorld {
             .newest_plan = [this] { return plans.newest(); }};
   }
 
-  void plan(const std::string& message) {
+  void plan(const std::string& message, const GainChoice& gain = GainKind::positive) {
     auto plan = std::make_shared<PlanResult>(
         store.published()->plan(small_request(), *make_solver("random", {})));
     plan->message = message;
-    plans.record(plan);
+    plans.record(plan, gain);
   }
 
   void scan() { store.insert(small_scan(), scan_pose(1)); }

@@ -22,7 +22,7 @@ TEST(Metrics, AreWhatTheStatusTells) {
   PlanLog plans;
   PlanResult plan;
   plan.status = PlanStatus::time_limit;
-  plans.record(std::make_shared<const PlanResult>(plan));
+  plans.record(std::make_shared<const PlanResult>(plan), GainKind::positive);
   v1::GetStatusReply status;
   status.set_version("1.2\"\n}");  // nothing ends its line or its quotes
   status.set_map_version(7);

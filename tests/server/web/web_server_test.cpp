@@ -70,6 +70,7 @@ TEST_F(WebServerTest, ShowsThePageAndItsMap) {
               HasSubstr("\r\n\r\n{\"id\":\"7-1\",\"is_whole\":true,\"map\":{\"name\":\"small\""));
   EXPECT_THAT(map, EndsWith("\"}}"));
   EXPECT_THAT(get("/map?since=7-1"), EndsWith("\"bricks\":{}}"));
+  EXPECT_THAT(get("/gains"), EndsWith("\r\n\r\n{\"plan\":0}"));
 }
 
 TEST_F(WebServerTest, TellsReadersOfChanges) {
