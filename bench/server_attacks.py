@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a server takes of attacks: resident memory, and how long another client waits for a plan.
 
-    PYTHONPATH=BUILD/python bench/server_attacks.py NBVOPT [SECONDS]
+    PYTHONPATH=BUILD/python bench/server_attacks.py NBVOPT [SECONDS [PART OF A NAME]]
 
 Each attack runs SECONDS (15) against a server of its own on loopback, which has one planning thread
 and one core; it ends when the server takes more than 2 GB.
@@ -15,6 +15,7 @@ import time
 
 import grpc
 from nbvopt_client import PlannerClient, PlannerError, plan_request, rpc
+from simulated_robot import SimulatedRobot
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests/python"))
 from hostile_http2 import Attack, connect, resident_mib  # noqa: E402
@@ -22,7 +23,13 @@ from hostile_http2 import Attack, connect, resident_mib  # noqa: E402
 MOST_MIB = 2000
 STATE = {"base": (1.0, 1.0, 1.0), "joints": (0.0, 0.0, 0.4), "motion_time_s": 1.0}
 INSERT_SCAN = "/nbvopt.v1.Planner/InsertScan"
-PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
+
+
+def get(path: str) -> bytes:
+    return f"GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
+
+
+PAGE = get("/")
 
 
 class Observer:
@@ -113,7 +120,26 @@ def ask_the_page(observer: Observer, seconds: float, connections: int, request: 
             each.close()
 
 
-def main(nbvopt: str, seconds: float = 15.0) -> None:
+def ask_for_a_growing_map(observer: Observer, seconds: float, connections: int) -> None:
+    """The same for a map that changes all the time, of which each answer is another."""
+    robot = SimulatedRobot()
+    ended = threading.Event()
+
+    def grow():
+        with PlannerClient(observer.address, timeout_s=20.0) as planner:
+            while not ended.is_set():
+                with contextlib.suppress(PlannerError):
+                    planner.insert_depth_image(robot.look(), robot.intrinsics, robot.T_map_sensor)
+                robot.move((robot.joints[0] + 1.0, 0.0, 0.4), 1.0)
+
+    growing = threading.Thread(target=grow)
+    growing.start()
+    ask_the_page(observer, seconds, connections, get("/map?since=1-1"))
+    ended.set()
+    growing.join()
+
+
+def main(nbvopt: str, seconds: float = 15.0, only: str = "") -> None:
     attacks = {
         "none": lambda observer, seconds: time.sleep(seconds),
         "2 connections x 100 scans of 31 MiB, last byte withheld": lambda *on: withhold(*on, 2, 100),
@@ -122,11 +148,15 @@ def main(nbvopt: str, seconds: float = 15.0) -> None:
         "20 PlanStreams whose answers nobody reads": lambda *on: read_no_plans(*on, 20),
         "200 halves of a request to the page": lambda *on: ask_the_page(*on, 200, PAGE[:-2]),
         "200 readers of the page that read nothing": lambda *on: ask_the_page(*on, 200, PAGE),
+        "200 readers of a growing map that read nothing": lambda *on: ask_for_a_growing_map(*on, 200),
+        "200 readers of gains that read nothing": lambda *on: ask_the_page(*on, 200, get("/gains")),
         "200 endless lines to the page": lambda *on: ask_the_page(*on, 200, b"G" * 10_000_000),
     }
     print("| attack | resident, MiB | plans of another client | refused | median, s | longest, s |")
     print("| --- | ---: | ---: | ---: | ---: | ---: |")
     for name, attack in attacks.items():
+        if only not in name:
+            continue
         with Observer(nbvopt) as observer, contextlib.suppress(ConnectionError):
             time.sleep(1.0)
             attack(observer, seconds)
@@ -139,4 +169,4 @@ def main(nbvopt: str, seconds: float = 15.0) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], *map(float, sys.argv[2:]))
+    main(sys.argv[1], *map(float, sys.argv[2:3]), *sys.argv[3:])
