@@ -14,7 +14,7 @@ import threading
 import time
 
 import grpc
-from nbvopt_client import PlannerClient, PlannerError, plan_request, rpc
+from nbvopt_client import PlannerClient, PlannerError, pb, plan_request, rpc
 from simulated_robot import SimulatedRobot
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests/python"))
@@ -130,7 +130,8 @@ def ask_for_a_growing_map(observer: Observer, seconds: float, connections: int) 
             while not ended.is_set():
                 with contextlib.suppress(PlannerError):
                     planner.insert_depth_image(robot.look(), robot.intrinsics, robot.T_map_sensor)
-                robot.move((robot.joints[0] + 1.0, 0.0, 0.4), 1.0)
+                turned = pb.JointPosition(pan_rad=robot.joints[0] + 1.0, height_m=0.4)
+                robot.move(turned, 1.0)
 
     growing = threading.Thread(target=grow)
     growing.start()
