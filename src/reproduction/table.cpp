@@ -88,7 +88,8 @@ class ResultIndex {
   std::span<const UnitResult> results_;
 };
 
-double mean(const Episodes& episodes, FigureOf figure) {
+template <class Figure>
+double mean(const Episodes& episodes, const Figure& figure) {
   double sum = 0.0;
   for (const auto& [origin, episode] : episodes) sum += figure(episode);
   return sum / static_cast<double>(episodes.size());
@@ -120,9 +121,8 @@ void set_figures(ResultRow& row, const Episodes& episodes) {
 }
 
 double mean_information_at(double time_s, const Episodes& episodes) {
-  double sum = 0.0;
-  for (const auto& [origin, episode] : episodes) sum += episode.summary.growth.at(time_s);
-  return sum / static_cast<double>(episodes.size());
+  return mean(episodes,
+              [&](const EpisodeReport& episode) { return episode.summary.growth.at(time_s); });
 }
 
 /// The paper's test of that kind takes so long, and its still camera in the plane.
