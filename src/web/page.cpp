@@ -49,7 +49,7 @@ std::string data_element(const std::string& id, const std::string& text) {
 /// JSON in which nothing ends the element that it stands in: a < is in strings alone.
 std::string json_in_html(const Json& data) {
   std::string text;
-  for (const char letter : data.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+  for (const char letter : line_of(data)) {
     if (letter == '<') {
       text += "\\u003c";
     } else {
@@ -60,6 +60,10 @@ std::string json_in_html(const Json& data) {
 }
 
 }  // namespace
+
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
 
 std::string page_policy(PageKind kind) {
   std::string scripts;

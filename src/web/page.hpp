@@ -19,6 +19,9 @@ enum class PageKind {
   live,   ///< asks its own server for it
 };
 
+/// On one line and in ASCII, whatever names and messages hold.
+std::string line_of(const Json& json);
+
 /// What the page may do, as a browser is told in it and by its server.
 std::string page_policy(PageKind kind);
 

@@ -5,6 +5,7 @@
 #include "nbvopt/core/error.hpp"
 #include "server/planner_by_gain.hpp"
 #include "web/answer_json.hpp"
+#include "web/page.hpp"
 #include "web/view_gains.hpp"
 
 namespace nbvopt {

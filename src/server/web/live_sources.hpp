@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "core/json.hpp"
 #include "nbvopt/planner/view_planner.hpp"
 #include "server/plan_log.hpp"
 
@@ -19,10 +18,5 @@ struct LiveSources {
   std::function<std::shared_ptr<const ViewPlanner>()> published;
   std::function<PlanLog::Newest()> newest_plan;
 };
-
-/// On one line, whatever names and messages hold.
-inline std::string line_of(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
 
 }  // namespace nbvopt
