@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -93,6 +94,19 @@ TEST_F(CandidatePoses, KeepAwayFromFrontiersAndTheRobot) {
                          {1.025, 0.025, 2 * kQuarter_rad},
                          {0.025, 1.025, -kQuarter_rad},
                          {0.025, -0.975, kQuarter_rad}});
+}
+
+TEST_F(CandidatePoses, KeepAwayFromFrontiersOnAllSides) {
+  rules_.ring_max_m = 0.5;
+  for (int direction = 0; direction < 16; ++direction) {
+    const double angle_rad = direction * kQuarter_rad / 4.0;
+    const Eigen::Vector2d towards(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d pose_map_m(0.525, 0.025);
+    groups_.front().points_map_m = {{0.025, 0.025}, pose_map_m + 0.29 * towards};
+    EXPECT_EQ(poses().size(), 3U) << direction;
+    groups_.front().points_map_m.back() = pose_map_m + 0.31 * towards;
+    EXPECT_EQ(poses().size(), 4U) << direction;
+  }
 }
 
 TEST_F(CandidatePoses, AreAsManyAsTheRulesSay) {
