@@ -14,7 +14,18 @@ Path::Path(std::vector<Eigen::Vector2d> points_map_m)
   }
 }
 
-Eigen::Vector2d Path::point_at(double along_m) const { return rest(along_m).front(); }
+std::size_t Path::next_point(double along_m) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(along_m_, std::max(along_m, 0.0)) -
+                                  along_m_.begin());
+}
+
+Eigen::Vector2d Path::point_at(double along_m) const {
+  if (along_m >= length_m()) return points_map_m_.back();
+  const double clamped_m = std::max(along_m, 0.0);
+  const std::size_t next = next_point(clamped_m);
+  const double part = (clamped_m - along_m_[next - 1]) / (along_m_[next] - along_m_[next - 1]);
+  return points_map_m_[next - 1] + part * (points_map_m_[next] - points_map_m_[next - 1]);
+}
 
 double Path::nearest_m(const Eigen::Vector2d& position_map_m, double from_m, double to_m) const {
   double nearest_m = from_m;
@@ -38,13 +49,9 @@ double Path::nearest_m(const Eigen::Vector2d& position_map_m, double from_m, dou
 
 std::vector<Eigen::Vector2d> Path::rest(double along_m) const {
   if (along_m >= length_m()) return {points_map_m_.back()};
-  const double clamped_m = std::max(along_m, 0.0);
-  const auto next =
-      static_cast<std::size_t>(std::ranges::upper_bound(along_m_, clamped_m) - along_m_.begin());
-  const double part = (clamped_m - along_m_[next - 1]) / (along_m_[next] - along_m_[next - 1]);
-  std::vector<Eigen::Vector2d> points{points_map_m_[next - 1] +
-                                      part * (points_map_m_[next] - points_map_m_[next - 1])};
-  points.insert(points.end(), points_map_m_.begin() + static_cast<std::ptrdiff_t>(next),
+  std::vector<Eigen::Vector2d> points{point_at(along_m)};
+  points.insert(points.end(),
+                points_map_m_.begin() + static_cast<std::ptrdiff_t>(next_point(along_m)),
                 points_map_m_.end());
   return points;
 }

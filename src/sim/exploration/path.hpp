@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace nbvopt {
@@ -11,6 +13,11 @@ class Path {
  public:
   /// At least one point.
   explicit Path(std::vector<Eigen::Vector2d> points_map_m);
+
+  std::span<const Eigen::Vector2d> points_map_m() const { return points_map_m_; }
+
+  /// How far along the path each point is.
+  std::span<const double> along_m() const { return along_m_; }
 
   double length_m() const { return along_m_.back(); }
 
@@ -24,6 +31,9 @@ class Path {
   std::vector<Eigen::Vector2d> rest(double along_m) const;
 
  private:
+  /// The first point, never the path's own first, beyond a distance that is less than the length.
+  std::size_t next_point(double along_m) const;
+
   std::vector<Eigen::Vector2d> points_map_m_;
   std::vector<double> along_m_;  // of each point
 };

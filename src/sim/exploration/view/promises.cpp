@@ -1,7 +1,5 @@
 #include "sim/exploration/view/promises.hpp"
 
-#include <algorithm>
-
 namespace nbvopt {
 
 bool Promises::is_broken(double time_s, double information) {
@@ -18,21 +16,15 @@ bool Promises::is_broken(double time_s, double information) {
 
 void Promises::doubt(const PlaceGain& gain) {
   for (const CubeGain& part : gain) {
-    double& doubt = doubts_[part.cube];
-    doubt = std::max(doubt, part.information);
+    if (part.cube >= doubts_.size()) doubts_.resize(part.cube + 1);
+    doubts_[part.cube] = std::max(doubts_[part.cube], part.information);
   }
 }
 
-PlaceGain Promises::believed(const PlaceGain& gain) const {
-  if (doubts_.empty()) return gain;
-  PlaceGain believed;
-  believed.reserve(gain.size());
-  for (const CubeGain& part : gain) {
-    const auto doubt = doubts_.find(part.cube);
-    const double information = part.information - (doubt == doubts_.end() ? 0.0 : doubt->second);
-    if (information > 0.0) believed.push_back({part.cube, information});
-  }
-  return believed;
+double Promises::believed(const PlaceGain& gain) const {
+  double information = 0.0;
+  for (const CubeGain& part : gain) information += believed(part);
+  return information;
 }
 
 }  // namespace nbvopt

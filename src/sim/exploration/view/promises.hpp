@@ -4,8 +4,8 @@
 // hit, it promises for ever what no view brings, and a base that trusts it stands there for ever.
 #pragma once
 
-#include <cstdint>
-#include <unordered_map>
+#include <algorithm>
+#include <vector>
 
 #include "sim/exploration/view/place_panorama.hpp"
 
@@ -23,11 +23,18 @@ class Promises {
   /// quarter of what was promised has come.
   bool is_broken(double time_s, double information);
 
-  /// What a place promises now is not believed from now on.
+  /// What a place promises now is not believed from now on. Cubes are named by small numbers, as
+  /// PlaceGains does it.
   void doubt(const PlaceGain& gain);
 
-  /// What a place promises beyond all doubts.
-  PlaceGain believed(const PlaceGain& gain) const;
+  /// What is promised of a cube beyond all doubts, at least 0.
+  double believed(const CubeGain& gain) const {
+    const double doubt = gain.cube < doubts_.size() ? doubts_[gain.cube] : 0.0;
+    return std::max(0.0, gain.information - doubt);
+  }
+
+  /// The same of a place.
+  double believed(const PlaceGain& gain) const;
 
  private:
   double period_s_;
@@ -37,7 +44,7 @@ class Promises {
   double begin_s_ = 0.0;
   double promised_ = 0.0;
   double information_before_ = 0.0;
-  std::unordered_map<std::uint64_t, double> doubts_;  ///< information by cube; only looked up
+  std::vector<double> doubts_;  ///< information by cube, none beyond its end
 };
 
 }  // namespace nbvopt

@@ -15,35 +15,13 @@
 #include "sim/exploration/view/places.hpp"
 #include "sim/exploration/view/promises.hpp"
 #include "sim/exploration/view/travel_time.hpp"
-#include "sim/exploration/view/way.hpp"
+#include "sim/exploration/view/way_information.hpp"
 
 namespace nbvopt {
 namespace {
 
 /// How long a way is followed before others are weighed against it.
 constexpr double kWeighAgain_s = 2.0;
-
-/// What is believed of every place in reach.
-using Believed = std::map<Cell, PlaceGain, SquareOrder>;
-
-double total(const PlaceGain& gain) {
-  double information = 0.0;
-  for (const CubeGain& part : gain) information += part.information;
-  return information;
-}
-
-/// The places that a path comes by.
-std::vector<const PlaceGain*> places_along(const Path& path, const Believed& believed) {
-  constexpr double kStep_m = 0.25;
-  std::vector<const PlaceGain*> passed;
-  for (double along_m = 0.0;; along_m += kStep_m) {
-    const auto place = believed.find(square_at(path.point_at(along_m)));
-    if (place != believed.end() && (passed.empty() || passed.back() != &place->second)) {
-      passed.push_back(&place->second);
-    }
-    if (along_m >= path.length_m()) return passed;
-  }
-}
 
 /// Drives a base to where an episode has most to learn.
 class ViewExplorer final : public BaseCourse {
@@ -86,35 +64,42 @@ class ViewExplorer final : public BaseCourse {
     const std::vector<Place> places = reachable_places(costs_, planner, region_);
     gains_.update(places, known, robot_.trajectory());
     judge_promises(places, known);
-    Believed believed;
-    for (const Place& place : places) {
-      believed.emplace(place.square, promises_.believed(gains_.of(place)));
-    }
-    std::optional<Way> best;
+    std::vector<Path> ways = worthwhile_ways(places, planner);
+    const std::vector<double> information = information_along(ways, by_square(places), promises_);
+    Path* best = nullptr;
     double most_per_s = information_min_per_s_;
-    for (const Place& place : places) {
-      std::optional<Way> way = way_to(place, planner, believed);
-      if (!way) continue;
-      const double per_s = information_per_s(*way, look_s_);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const double time_s = travel_time_s(base_, robot_.yaw_rad(), ways[i]) + look_s_;
+      const double per_s = information[i] / time_s;
       if (per_s < most_per_s) continue;
       most_per_s = per_s;
-      best = std::move(way);
+      best = &ways[i];
     }
     if (!best) return end(ExplorationStatus::complete);
     promises_.promise(most_per_s);
     weigh_s_ = robot_.time_s() + kWeighAgain_s;
-    robot_.follow(std::move(best->path));
+    robot_.follow(std::move(*best));
   }
 
-  /// None to where nothing is worth even the look around.
-  std::optional<Way> way_to(const Place& place, GridPlanner& planner,
-                            const Believed& believed) const {
-    if (total(believed.at(place.square)) < information_min_per_s_ * look_s_) return std::nullopt;
-    std::optional<Path> path = planner.path(place.position_map_m);
-    if (!path) return std::nullopt;
-    const double travel_s = travel_time_s(base_, robot_.yaw_rad(), *path);
-    std::vector<const PlaceGain*> passed = places_along(*path, believed);
-    return Way{std::move(*path), travel_s, std::move(passed)};
+  /// To the places where there is enough for the look around alone.
+  std::vector<Path> worthwhile_ways(const std::vector<Place>& places, GridPlanner& planner) const {
+    std::vector<Path> ways;
+    for (const Place& place : places) {
+      if (promises_.believed(gains_.of(place)) < information_min_per_s_ * look_s_) continue;
+      if (std::optional<Path> way = planner.path(place.position_map_m)) {
+        ways.push_back(std::move(*way));
+      }
+    }
+    return ways;
+  }
+
+  CellArray<const PlaceGain*> by_square(const std::vector<Place>& places) const {
+    Eigen::AlignedBox2i box;
+    for (const Place& place : places) box.extend(place.square);
+    CellArray<const PlaceGain*> gains(nullptr, /*margin=*/0);
+    if (!box.isEmpty()) gains.reserve(box);
+    for (const Place& place : places) gains[place.square] = &gains_.of(place);
+    return gains;
   }
 
   /// Where promises were broken, what is promised from here is not believed again.

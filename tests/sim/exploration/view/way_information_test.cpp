@@ -1,5 +1,5 @@
 // What ways are worth, on cases that are counted by hand.
-#include "sim/exploration/view/way.hpp"
+#include "sim/exploration/view/way_information.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,15 +29,53 @@ TEST(TravelTime, CountsTheWayAndSharpTurns) {
   EXPECT_EQ(travel_time_s(base, 0.0, Path({{1.0, 1.0}, {1.0, 1.0}})), 0.0);
 }
 
-TEST(Way, CountsWhatSeveralPlacesSeeOnce) {
-  const PlaceGain first{{1, 10.0}, {2, 5.0}};
-  const PlaceGain second{{2, 8.0}, {3, 4.0}};
-  EXPECT_DOUBLE_EQ(information_along(std::vector{&first}), 15.0);
-  EXPECT_DOUBLE_EQ(information_along(std::vector{&first, &second}), 10.0 + 8.0 + 4.0);
-  EXPECT_DOUBLE_EQ(information_along(std::vector{&second, &first, &second}), 22.0);
-  EXPECT_EQ(information_along({}), 0.0);
-  const Way way{Path({{0.0, 0.0}, {1.0, 0.0}}), 4.0, {&first, &second}};
-  EXPECT_DOUBLE_EQ(information_per_s(way, 3.5), 22.0 / 7.5);
+/// Three places in a row, half a metre apart, and one beside the last.
+class WayInformationTest : public testing::Test {
+ protected:
+  WayInformationTest() {
+    places_.reserve({Cell(0, 0), Cell(2, 1)});
+    places_[{0, 0}] = &first_;
+    places_[{1, 0}] = &second_;
+    places_[{2, 0}] = &third_;
+    places_[{2, 1}] = &beside_;
+  }
+
+  double along(const Path& way) const {
+    return information_along({&way, 1}, places_, promises_).front();
+  }
+
+  const PlaceGain first_{{1, 10.0}, {2, 5.0}};
+  const PlaceGain second_{{2, 8.0}, {3, 4.0}};
+  const PlaceGain third_{{3, 5.0}, {1, 2.0}};
+  const PlaceGain beside_{{2, 9.0}};
+  CellArray<const PlaceGain*> places_{nullptr};
+  Promises promises_{4.0};
+};
+
+TEST_F(WayInformationTest, CountsWhatSeveralPlacesSeeOnce) {
+  EXPECT_DOUBLE_EQ(along(Path({{0.1, 0.2}})), 15.0);
+  EXPECT_DOUBLE_EQ(along(Path({{0.1, 0.2}, {0.9, 0.2}})), 10.0 + 8.0 + 4.0);
+  EXPECT_DOUBLE_EQ(along(Path({{0.9, 0.2}, {0.1, 0.2}, {0.9, 0.2}})), 22.0);
+  EXPECT_EQ(along(Path({{7.0, 7.0}, {8.0, 7.0}})), 0.0) << "no place is there";
+}
+
+TEST_F(WayInformationTest, DoesNotDependOnTheOtherWays) {
+  const std::vector<Path> ways{
+      Path({{0.1, 0.2}, {0.9, 0.2}}),
+      Path({{0.1, 0.2}, {0.9, 0.2}, {1.2, 0.2}}),
+      Path({{0.6, 0.2}, {1.2, 0.2}}),
+      Path({{0.1, 0.2}, {0.9, 0.2}, {1.2, 0.4}}),
+      Path({{0.1, 0.2}, {1.2, 0.2}, {1.2, 0.9}}),
+      Path({{0.1, 0.2}, {0.9, 0.2}}),
+      Path({{0.1, 0.2}}),
+  };
+  EXPECT_EQ(information_along(ways, places_, promises_),
+            (std::vector{22.0, 23.0, 15.0, 23.0, 24.0, 22.0, 15.0}));
+}
+
+TEST_F(WayInformationTest, LeavesOutWhatIsDoubted) {
+  promises_.doubt(PlaceGain{{1, 4.0}, {2, 7.0}});
+  EXPECT_DOUBLE_EQ(along(Path({{0.1, 0.2}, {0.9, 0.2}})), 6.0 + 1.0 + 4.0);
 }
 
 TEST(Promises, AreJudgedAfterTheirPeriod) {
@@ -53,13 +91,11 @@ TEST(Promises, AreJudgedAfterTheirPeriod) {
 TEST(Promises, BelieveNoMoreThanWhatIsBeyondDoubt) {
   Promises promises(4.0);
   const PlaceGain gain{{1, 10.0}, {2, 5.0}};
-  EXPECT_DOUBLE_EQ(information_along(std::vector{&gain}), 15.0);
+  EXPECT_DOUBLE_EQ(promises.believed(gain), 15.0);
   promises.doubt(PlaceGain{{1, 4.0}, {2, 7.0}});
   promises.doubt(PlaceGain{{1, 3.0}});
-  const PlaceGain believed = promises.believed(gain);
-  ASSERT_EQ(believed.size(), 1U);
-  EXPECT_EQ(believed[0].cube, 1U);
-  EXPECT_DOUBLE_EQ(believed[0].information, 6.0);
+  EXPECT_DOUBLE_EQ(promises.believed(gain), 6.0);
+  EXPECT_DOUBLE_EQ(promises.believed(gain[1]), 0.0);
 }
 
 /// A room of 3 x 2 m, half of it shut off by a wall; the rest of the plane is unknown.
