@@ -39,7 +39,7 @@ GridPlanner::GridPlanner(const DriveCosts& costs, const Eigen::Vector2d& start_m
     : costs_(costs), start_map_m_(start_map_m), box_(box) {
   const Cell size = box.sizes() + Cell::Ones();
   nodes_.assign(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()),
-                {std::numeric_limits<float>::infinity(), 0, false});
+                {std::numeric_limits<float>::infinity(), 0, false, Passable::not_asked});
   start_ = number(costs.grid().cell_at(start_map_m));
   nodes_[static_cast<std::size_t>(start_)].cost_m = 0.0F;
   front_.emplace(0.0F, start_);
@@ -80,28 +80,40 @@ void GridPlanner::spread(int from) {
   const Cell here = cell(from);
   // Off the open cells only straight steps lead out; a diagonal one must have room on both sides.
   std::array<bool, kStraightSteps> is_open{};
-  const bool is_passable = costs_.is_passable(here);
+  const bool is_passable = this->is_passable(from, here);
   for (int step = 0; step < kStraightSteps; ++step) {
     const Cell next = here + offset(step);
-    if (!box_.contains(next) || !costs_.can_step(here, next)) continue;
+    if (!box_.contains(next)) continue;
+    if (!(is_passable ? this->is_passable(number(next), next) : costs_.can_step(here, next))) {
+      continue;
+    }
     is_open[static_cast<std::size_t>(step)] = is_passable;
-    relax(from, step);
+    relax(from, step, next);
   }
   for (int step = kStraightSteps; step < static_cast<int>(kSteps.size()); ++step) {
     const auto side = static_cast<std::size_t>(step - kStraightSteps);
     if (!is_open[side] || !is_open[(side + 1) % kStraightSteps]) continue;
-    if (costs_.is_passable(here + offset(step))) relax(from, step);
+    const Cell next = here + offset(step);
+    if (this->is_passable(number(next), next)) relax(from, step, next);
   }
 }
 
-void GridPlanner::relax(int from, int step) {
-  const Cell next = cell(from) + offset(step);
+bool GridPlanner::is_passable(int number, const Cell& cell) {
+  Passable& passable = nodes_[static_cast<std::size_t>(number)].passable;
+  if (passable == Passable::not_asked) {
+    passable = costs_.is_passable(cell) ? Passable::yes : Passable::no;
+  }
+  return passable == Passable::yes;
+}
+
+void GridPlanner::relax(int from, int step, const Cell& next) {
   const int to = number(next);
+  Node& node = nodes_[static_cast<std::size_t>(to)];
+  if (node.is_settled) return;
   const double length_m =
       kSteps[static_cast<std::size_t>(step)].length_cells * costs_.grid().cell_m();
   const auto cost_m = static_cast<float>(nodes_[static_cast<std::size_t>(from)].cost_m +
                                          length_m * costs_.weight(next));
-  Node& node = nodes_[static_cast<std::size_t>(to)];
   if (cost_m >= node.cost_m) return;
   node.cost_m = cost_m;
   node.came_by = static_cast<std::int8_t>(step);

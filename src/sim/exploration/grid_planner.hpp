@@ -29,10 +29,12 @@ class GridPlanner {
   std::optional<Path> path(const Eigen::Vector2d& goal_map_m);
 
  private:
+  enum class Passable : std::uint8_t { not_asked, no, yes };
   struct Node {
     float cost_m;
     std::int8_t came_by;  ///< the number of the step that leads here
     bool is_settled;
+    Passable passable;
   };
   using Entry = std::pair<float, int>;  ///< cost and node: ties settle in the order of nodes
 
@@ -41,7 +43,8 @@ class GridPlanner {
   Eigen::Vector2d point_map_m(int number) const;
   int before(int number) const;
   void spread(int from);
-  void relax(int from, int step);
+  bool is_passable(int number, const Cell& cell);
+  void relax(int from, int step, const Cell& next);
 
   /// Where the last straight piece of the way to a node begins. Ways share what they begin with, so
   /// that each node of the tree that they make is pulled straight once.
