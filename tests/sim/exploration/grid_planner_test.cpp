@@ -123,8 +123,8 @@ TEST_F(GridPlannerTest, WaysDoNotDependOnThoseBefore) {
   wall({1.5, 1.5}, {1.5, 4.0});
   GridPlanner shared = planner({1.013, 1.027});
   int ways = 0;
-  for (double y_m = 3.9; y_m > 0.0; y_m -= 0.17) {
-    for (double x_m = 0.03; x_m < 6.0; x_m += 0.19) {
+  for (double y_m = 3.9; y_m > 0.0; y_m -= 0.51) {
+    for (double x_m = 0.03; x_m < 6.0; x_m += 0.57) {
       const auto path = shared.path({x_m, y_m});
       const auto alone = planner({1.013, 1.027}).path({x_m, y_m});
       ASSERT_EQ(path.has_value(), alone.has_value());
@@ -134,7 +134,7 @@ TEST_F(GridPlannerTest, WaysDoNotDependOnThoseBefore) {
       EXPECT_EQ(path->point_at(path->length_m()), Eigen::Vector2d(x_m, y_m));
     }
   }
-  EXPECT_GT(ways, 500);
+  EXPECT_GT(ways, 50);
 }
 
 TEST_F(GridPlannerTest, CostsDoNotDependOnTheOrderOfQuestions) {
