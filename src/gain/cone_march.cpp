@@ -5,15 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "gain/cone_span.hpp"
+#include "gain/cone_window.hpp"
 #include "nbvopt/sensor/uncertainty_model.hpp"
 
 namespace nbvopt::detail {
 namespace {
-
-constexpr int kWindow = ConeGrid::kWindow;
-
-/// Casters walk in single precision, and so may be in a voxel that the ray just misses.
-constexpr double kRounding = 1e-3;  // voxels
 
 /// Cones whose rays' values differ by less are not looked at any closer.
 constexpr double kSettled = 2e-3;
@@ -21,79 +18,15 @@ constexpr double kSettled = 2e-3;
 /// Of u_d by distance.
 constexpr double kStepsPerVoxel = 16.0;
 
-constexpr std::uint64_t kRow = 0xFF;
-constexpr std::uint64_t kColumn = 0x0101010101010101;
-
-/// Bits of the columns first to last of each row.
-std::uint64_t columns(int first, int last) {
-  first = std::max(first, 0);
-  last = std::min(last, kWindow - 1);
-  if (first > last) return 0;
-  return ((kRow >> (kWindow - 1 - (last - first))) << first) * kColumn;
-}
-
-/// Bits of the rows first to last.
-std::uint64_t rows(int first, int last) {
-  first = std::max(first, 0);
-  last = std::min(last, kWindow - 1);
-  if (first > last) return 0;
-  return (~std::uint64_t{0} >> (8 * (kWindow - 1 - (last - first)))) << (8 * first);
-}
-
-std::uint64_t next_column(std::uint64_t window) { return (window << 1) & ~kColumn; }
-std::uint64_t previous_column(std::uint64_t window) { return (window >> 1) & ~(kColumn << 7); }
-
-/// The window seen from a place that is so many columns and rows further on.
-std::uint64_t moved(std::uint64_t window, int by_columns, int by_rows) {
-  if (std::abs(by_columns) >= kWindow || std::abs(by_rows) >= kWindow) return 0;
-  for (; by_columns > 0; --by_columns) window = previous_column(window);
-  for (; by_columns < 0; ++by_columns) window = next_column(window);
-  return by_rows >= 0 ? window >> (8 * by_rows) : window << (-8 * by_rows);
-}
-
 int voxel_of(double place) { return static_cast<int>(std::floor(place)); }
-
-using Span = ConeMarch::Span;
-
-/// Where rays are along an axis once they have gone so far along the main one.
-Span places_at(double origin_min, double origin_max, double slope_min, double slope_max,
-               Span depth) {
-  return {origin_min + slope_min * (slope_min < 0.0 ? depth.max : depth.min) - kRounding,
-          origin_max + slope_max * (slope_max > 0.0 ? depth.max : depth.min) + kRounding};
-}
-
-/// How far along the main axis rays cross a plane of another axis, within `depth`.
-Span depths_at_plane(double plane, double origin_min, double origin_max, double slope_min,
-                     double slope_max, Span depth) {
-  const bool up = slope_max > 0.0 && plane >= origin_min - kRounding;
-  const bool down = slope_min < 0.0 && plane <= origin_max + kRounding;
-  if (up == down) return depth;  // through the box of origins: anywhere
-  const double nearest = up ? plane - origin_max : origin_min - plane;
-  const double farthest = up ? plane - origin_min : origin_max - plane;
-  const double steepest = up ? slope_max : -slope_min;
-  const double flattest = up ? slope_min : -slope_max;
-  Span crossed = depth;
-  crossed.min = std::max(depth.min, (nearest - kRounding) / steepest);
-  if (flattest > 0.0) crossed.max = std::min(depth.max, (farthest + kRounding) / flattest);
-  return crossed.min <= crossed.max ? crossed : depth;
-}
-
-/// How far along the main axis rays may have gone when they leave a voxel by its sides across
-/// another axis; infinite where some never do.
-double farthest_exit(int voxel, double origin_min, double origin_max, double slope_min,
-                     double slope_max) {
-  if (slope_min > 0.0) return (voxel + 1 - origin_min + kRounding) / slope_min;
-  if (slope_max < 0.0) return (origin_max - voxel + kRounding) / -slope_max;
-  return std::numeric_limits<double>::infinity();
-}
 
 }  // namespace
 
 /// What a cone touches between two planes of the grid across its main axis.
 struct ConeMarch::Layer {
   int k = 0;
-  Span depth;                             ///< of any point of it
-  Span depth_before;                      ///< of the plane by which rays come in
+  ConeSpan depth;                         ///< of any point of it
+  ConeSpan depth_before;                  ///< of the plane by which rays come in
   int row_first = 0, row_last = 0;        ///< voxels along the row axis
   int column_first = 0, column_last = 0;  ///< along the column axis
 
@@ -101,7 +34,7 @@ struct ConeMarch::Layer {
     return row_last - row_first < kWindow && column_last - column_first < kWindow;
   }
   std::uint64_t all() const {
-    return columns(0, row_last - row_first) & rows(0, column_last - column_first);
+    return window_columns(0, row_last - row_first) & window_rows(0, column_last - column_first);
   }
 };
 
@@ -114,12 +47,12 @@ ConeMarch::ConeMarch(const ConeGrid& grid, const DepthCamera& camera, double res
   const CameraRays& rays = camera.rays();
   const auto [nearest, farthest] =
       std::minmax_element(rays.range_min_m.begin(), rays.range_min_m.end());
-  near_min_ = *nearest / resolution_m - kRounding;
-  near_max_ = *farthest / resolution_m + kRounding;
+  near_min_ = *nearest / resolution_m - kConeRounding;
+  near_max_ = *farthest / resolution_m + kConeRounding;
   const auto [shortest, longest] =
       std::minmax_element(rays.range_max_m.begin(), rays.range_max_m.end());
-  far_min_ = *shortest / resolution_m - kRounding;
-  far_ = *longest / resolution_m + kRounding;
+  far_min_ = *shortest / resolution_m - kConeRounding;
+  far_ = *longest / resolution_m + kConeRounding;
   const UncertaintyModel model(camera.options());
   focal_ = model.focal_distance_m() / resolution_m;
   // Up to the end of the last layer that the longest ray is in.
@@ -148,10 +81,10 @@ ConeMarch::Layer ConeMarch::layer_at(const Cone& cone, int k) const {
   layer.k = k;
   layer.depth = {std::max(0.0, k - cone.origin_max[0]), k + 1 - cone.origin_min[0]};
   layer.depth_before = {layer.depth.min, std::max(0.0, k - cone.origin_min[0])};
-  const Span row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
-                             cone.row_slope_max, layer.depth);
-  const Span column = places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
-                                cone.column_slope_max, layer.depth);
+  const ConeSpan row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
+                                 cone.row_slope_max, layer.depth);
+  const ConeSpan column = places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
+                                    cone.column_slope_max, layer.depth);
   layer.row_first = voxel_of(row.min);
   layer.row_last = voxel_of(row.max);
   layer.column_first = voxel_of(column.min);
@@ -185,7 +118,7 @@ int ConeMarch::free_layers(const Cone& cone, const Layer& layer) const {
 }
 
 void ConeMarch::take_hits(const Cone& cone, const Layer& layer, std::uint64_t hits,
-                          std::uint64_t in_front, Span& values) const {
+                          std::uint64_t in_front, ConeSpan& values) const {
   for (; hits != 0; hits &= hits - 1) {
     const int bit = std::countr_zero(hits);
     const std::array<int, 3> place = place_of(cone, layer, bit);
@@ -195,7 +128,7 @@ void ConeMarch::take_hits(const Cone& cone, const Layer& layer, std::uint64_t hi
     const double u_old =
         is_occupied ? double{grid_.uncertainty_of_occupied(place, none_stored_)} : unknown_value_;
     if (u_old <= values.max && values.min < values.max - kSettled) continue;
-    const auto take = [&](Span depth) {
+    const auto take = [&](ConeSpan depth) {
       const double from = std::max(depth.min * cone.stretch_min, near_min_);
       double to = std::max(depth.max * cone.stretch_max, near_max_);
       if (from > far_) return;
@@ -273,14 +206,14 @@ std::uint64_t ConeMarch::frontiers_of(const Cone& cone, const Layer& layer,
 ConeView ConeMarch::operator()(const Cone& cone) const {
   ConeView view;
   constexpr double kInf = std::numeric_limits<double>::infinity();
-  Span values{kInf, ConeView::kNothing};  // of the hits so far
+  ConeSpan values{kInf, ConeView::kNothing};  // of the hits so far
   bool was_cut_short = false;
   bool stopped_all = false;
-  const int first = voxel_of(cone.origin_min[0] - kRounding);
+  const int first = voxel_of(cone.origin_min[0] - kConeRounding);
   int k = std::max(first, voxel_of(cone.origin_min[0] + cone.clear / cone.stretch_max));
   bool is_clear = true;  // nothing was hit, and no ray was stopped
   bool is_full = true;   // all that the cone touches is reached
-  const int last_origin = voxel_of(cone.origin_max[0] + kRounding);
+  const int last_origin = voxel_of(cone.origin_max[0] + kConeRounding);
   std::uint64_t reached = 0;  // of the layer before, which it counts from `last`
   Layer last;
   for (;;) {
@@ -321,13 +254,15 @@ ConeView ConeMarch::operator()(const Cone& cone) const {
     // What rays come in to from the layer before, and then beside that.
     std::uint64_t in_front = all;
     if (k > last_origin) {  // no ray begins here
-      const Span row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
-                                 cone.row_slope_max, layer.depth_before);
-      const Span column = places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
-                                    cone.column_slope_max, layer.depth_before);
-      in_front &= columns(voxel_of(row.min) - layer.row_first, voxel_of(row.max) - layer.row_first);
-      in_front &= rows(voxel_of(column.min) - layer.column_first,
-                       voxel_of(column.max) - layer.column_first);
+      const ConeSpan row = places_at(cone.origin_min[1], cone.origin_max[1], cone.row_slope_min,
+                                     cone.row_slope_max, layer.depth_before);
+      const ConeSpan column =
+          places_at(cone.origin_min[2], cone.origin_max[2], cone.column_slope_min,
+                    cone.column_slope_max, layer.depth_before);
+      in_front &=
+          window_columns(voxel_of(row.min) - layer.row_first, voxel_of(row.max) - layer.row_first);
+      in_front &= window_rows(voxel_of(column.min) - layer.column_first,
+                              voxel_of(column.max) - layer.column_first);
       if (!is_full) {
         in_front &= moved(reached, layer.row_first - last.row_first,
                           layer.column_first - last.column_first);
@@ -335,20 +270,25 @@ ConeView ConeMarch::operator()(const Cone& cone) const {
     }
     // Rays cross a plane away from where they began.
     const auto from = [](double origin, int first_voxel) {
-      return static_cast<int>(std::ceil(origin - kRounding)) - first_voxel;
+      return static_cast<int>(std::ceil(origin - kConeRounding)) - first_voxel;
     };
     const auto until = [](double origin, int first_voxel) {
-      return voxel_of(origin + kRounding) - 1 - first_voxel;
+      return voxel_of(origin + kConeRounding) - 1 - first_voxel;
     };
     const std::uint64_t row_up =
-        cone.row_slope_max > 0.0 ? columns(from(cone.origin_min[1], layer.row_first), kWindow) : 0;
+        cone.row_slope_max > 0.0
+            ? window_columns(from(cone.origin_min[1], layer.row_first), kWindow)
+            : 0;
     const std::uint64_t row_down =
-        cone.row_slope_min < 0.0 ? columns(0, until(cone.origin_max[1], layer.row_first)) : 0;
+        cone.row_slope_min < 0.0 ? window_columns(0, until(cone.origin_max[1], layer.row_first))
+                                 : 0;
     const std::uint64_t column_up =
-        cone.column_slope_max > 0.0 ? rows(from(cone.origin_min[2], layer.column_first), kWindow)
-                                    : 0;
+        cone.column_slope_max > 0.0
+            ? window_rows(from(cone.origin_min[2], layer.column_first), kWindow)
+            : 0;
     const std::uint64_t column_down =
-        cone.column_slope_min < 0.0 ? rows(0, until(cone.origin_max[2], layer.column_first)) : 0;
+        cone.column_slope_min < 0.0 ? window_rows(0, until(cone.origin_max[2], layer.column_first))
+                                    : 0;
     std::uint64_t touched = in_front;
     for (;;) {
       const std::uint64_t through = touched & passable;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gain/cone_grid.hpp"
+#include "gain/cone_span.hpp"
 #include "nbvopt/sensor/depth_camera.hpp"
 
 namespace nbvopt::detail {
@@ -38,12 +39,6 @@ struct ConeView {
 
 class ConeMarch {
  public:
-  /// A closed interval.
-  struct Span {
-    double min = 0.0;
-    double max = 0.0;
-  };
-
   /// The grid must outlive it.
   ConeMarch(const ConeGrid& grid, const DepthCamera& camera, double resolution_m,
             bool carries_uncertainty);
@@ -59,7 +54,7 @@ class ConeMarch {
   int free_layers(const Cone& cone, const Layer& layer) const;
   /// Widens the values of first hits by those in these voxels.
   void take_hits(const Cone& cone, const Layer& layer, std::uint64_t hits, std::uint64_t in_front,
-                 Span& values) const;
+                 ConeSpan& values) const;
   std::array<int, 3> place_of(const Cone& cone, const Layer& layer, int bit) const;
   /// Which of these voxels are occupied, and which of these free ones have unknown neighbours.
   std::uint64_t occupied_of(const Cone& cone, const Layer& layer, std::uint64_t voxels) const;

@@ -22,12 +22,8 @@ constexpr int kDeepestLevel = 7;
 
 constexpr std::size_t kMostCellBytes = std::size_t{256} << 20;
 
-/// Of directions, cells: they are kept in single precision.
-constexpr float kCellRounding = 2e-3F;
 /// Of places of the camera, metres.
 constexpr double kPlaceRounding_m = 1e-9;
-
-int cell_of(double place) { return static_cast<int>(std::floor(place)); }
 
 CellBox united(const CellBox& a, const CellBox& b) {
   return {.azimuth_min = std::min(a.azimuth_min, b.azimuth_min),
@@ -64,11 +60,6 @@ GainBound::GainBound(const VoxelGrid& grid, const SensorOptions& sensor, const M
   const UncertaintyModel uncertainty(sensor);
   for (const double part : angle_part(uncertainty, camera_.rays())) {
     angle_part_.push_back(std::nextafter(static_cast<float>(part), 0.0F));
-  }
-  const CameraRays& rays = camera_.rays();
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    tangent_x_.push_back(rays.x[i] / rays.z[i]);
-    tangent_y_.push_back(rays.y[i] / rays.z[i]);
   }
 }
 
@@ -226,97 +217,19 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> GainBound::origins_m(const JointBox&
   return {centre - reach, centre + reach};
 }
 
-GainBound::RayRanges GainBound::make_ranges(double tilt_min, double tilt_max,
-                                            double cell_rad) const {
-  constexpr double kHalfPi = 0.5 * std::numbers::pi;
-  RayRanges ranges;
-  for (std::size_t i = 0; i < tangent_x_.size(); ++i) {
-    // A ray turns with the tilt in a plane of constant x: by an angle from the horizon.
-    const double x = tangent_x_[i];
-    const double ahead = std::hypot(1.0, tangent_y_[i]);
-    const double low = tilt_min - std::atan(tangent_y_[i]);
-    const double high = tilt_max - std::atan(tangent_y_[i]);
-    const auto elevation = [&](double turn) {
-      return std::atan2(ahead * std::sin(turn), std::hypot(x, ahead * std::cos(turn)));
-    };
-    const auto azimuth = [&](double turn) { return std::atan2(-x, ahead * std::cos(turn)); };
-    double elevation_min = std::min(elevation(low), elevation(high));
-    double elevation_max = std::max(elevation(low), elevation(high));
-    double azimuth_min = std::min(azimuth(low), azimuth(high));
-    double azimuth_max = std::max(azimuth(low), azimuth(high));
-    if (low < 0.0 && high > 0.0) {  // |azimuth| is least at the horizon
-      azimuth_min = std::min(azimuth_min, azimuth(0.0));
-      azimuth_max = std::max(azimuth_max, azimuth(0.0));
-    }
-    constexpr double kBesidePole_rad = 1e-3;
-    if (high > kHalfPi - kBesidePole_rad || low < -kHalfPi + kBesidePole_rad) {
-      if (high > kHalfPi - kBesidePole_rad) elevation_max = elevation(kHalfPi);
-      if (low < -kHalfPi + kBesidePole_rad) elevation_min = elevation(-kHalfPi);
-      azimuth_min = -std::numbers::pi;
-      azimuth_max = std::numbers::pi;
-    }
-    ranges.azimuth_min.push_back(static_cast<float>(azimuth_min / cell_rad) - kCellRounding);
-    ranges.azimuth_max.push_back(static_cast<float>(azimuth_max / cell_rad) + kCellRounding);
-    ranges.elevation_min.push_back(static_cast<float>(elevation_min / cell_rad) - kCellRounding);
-    ranges.elevation_max.push_back(static_cast<float>(elevation_max / cell_rad) + kCellRounding);
-  }
-  const auto least = [](const std::vector<float>& v) {
-    return *std::min_element(v.begin(), v.end());
-  };
-  const auto largest = [](const std::vector<float>& v) {
-    return *std::max_element(v.begin(), v.end());
-  };
-  ranges.least_azimuth = least(ranges.azimuth_min);
-  ranges.largest_azimuth = largest(ranges.azimuth_max);
-  ranges.least_elevation = least(ranges.elevation_min);
-  ranges.largest_elevation = largest(ranges.elevation_max);
-  return ranges;
-}
-
-const GainBound::RayRanges& GainBound::ranges_of(int level, int tilt) {
+const RayRanges& GainBound::ranges_of(int level, int tilt) {
   const auto found = ranges_.find({level, tilt});
   if (found != ranges_.end()) return found->second;
   const double cell = cell_rad(level);
   const double from_rad = box_.min[1] + cell * tilt;
   const double to_rad = std::clamp(from_rad + cell, from_rad, std::max(from_rad, box_.max[1]));
-  return ranges_.emplace(std::pair(level, tilt), make_ranges(from_rad, to_rad, cell)).first->second;
-}
-
-RayWindows GainBound::windows_of(const RayRanges& ranges,
-                                 const std::pair<double, double>& turn_cells,
-                                 const CellBox& cells) const {
-  RayWindows windows;
-  windows.offset.reserve(2 * angle_part_.size());
-  windows.end.reserve(angle_part_.size());
-  windows.angle_part = angle_part_;
-  const auto turn_min = static_cast<float>(turn_cells.first) - kCellRounding;
-  const auto turn_max = static_cast<float>(turn_cells.second) + kCellRounding;
-  for (std::size_t i = 0; i < angle_part_.size(); ++i) {
-    const int left = cell_of(ranges.azimuth_min[i] + turn_min);
-    const int right = cell_of(1.0F + ranges.azimuth_max[i] + turn_max);
-    const int below = cell_of(ranges.elevation_min[i]);
-    const int above = cell_of(ranges.elevation_max[i]);
-    for (int y = below;; y = std::min(y + 2, above - 1)) {
-      for (int x = left;; x = std::min(x + 2, right - 1)) {
-        windows.offset.push_back((y - cells.elevation_min) * cells.wide() + x - cells.azimuth_min);
-        if (x + 2 > right) break;
-      }
-      if (y + 2 > above) break;
-    }
-    windows.end.push_back(static_cast<std::int32_t>(windows.offset.size()));
-  }
-  return windows;
+  return ranges_.try_emplace({level, tilt}, camera_.rays(), from_rad, to_rad, cell).first->second;
 }
 
 CellBox GainBound::seen_from(const BoundBlock& block, int tilt, int begin, int end,
                              const std::pair<double, double>& turn_cells) {
-  // Bins and cells are counted from the same pan.
-  const RayRanges& ranges = ranges_of(block.level, block.first[1] + tilt);
-  return {
-      .azimuth_min = block.first[0] + begin + cell_of(ranges.least_azimuth + turn_cells.first) - 1,
-      .azimuth_max = block.first[0] + end + cell_of(ranges.largest_azimuth + turn_cells.second) + 2,
-      .elevation_min = cell_of(ranges.least_elevation) - 1,
-      .elevation_max = cell_of(ranges.largest_elevation) + 2};
+  return detail::seen_from(ranges_of(block.level, block.first[1] + tilt), block.first[0] + begin,
+                           block.first[0] + end, turn_cells);
 }
 
 ConeCells& GainBound::cells_of(const BoundBlock& block,
@@ -361,8 +274,8 @@ bool GainBound::tighten(BoundBlock& block, float worth, const StopRule& stop) {
   std::vector<float> sums(static_cast<std::size_t>(block.pans));
   for (const Alive::Row& row : alive.rows) {
     if (stop.is_expired() || stop.cancel.is_cancelled()) return false;
-    const RayWindows rays =
-        windows_of(ranges_of(block.level, block.first[1] + row.tilt), turn_cells, *part);
+    const RayWindows rays = windows_of(ranges_of(block.level, block.first[1] + row.tilt),
+                                       turn_cells, *part, angle_part_);
     bound_row(rays, windows.data() + block.first[0], row.begin, row.end, sums.data());
     float* bounds = block.row(row.tilt) - block.pan_begin;
     for (int p = row.begin; p < row.end; ++p) {

@@ -19,10 +19,10 @@
 #include <utility>
 #include <vector>
 
-#include "gain/bound_row.hpp"
 #include "gain/cone_cells.hpp"
 #include "gain/cone_grid.hpp"
 #include "gain/cone_march.hpp"
+#include "gain/ray_ranges.hpp"
 #include "nbvopt/core/stop.hpp"
 #include "nbvopt/mast/moving_mast.hpp"
 #include "nbvopt/sensor/depth_camera.hpp"
@@ -76,11 +76,6 @@ class GainBound {
   std::int64_t cones() const { return cones_; }
 
  private:
-  /// Where the rays of a range of tilts go as seen from their pan, in cells.
-  struct RayRanges {
-    std::vector<float> azimuth_min, azimuth_max, elevation_min, elevation_max;
-    float least_azimuth, largest_azimuth, least_elevation, largest_elevation;
-  };
   struct Alive;
   using BlockKey = std::array<int, 4>;  ///< level, and the block's first bins
 
@@ -96,9 +91,6 @@ class GainBound {
   CellBox seen_from(const BoundBlock& block, int tilt, int begin, int end,
                     const std::pair<double, double>& turn_cells);
   const RayRanges& ranges_of(int level, int tilt);
-  RayRanges make_ranges(double tilt_min_rad, double tilt_max_rad, double cell_rad) const;
-  RayWindows windows_of(const RayRanges& ranges, const std::pair<double, double>& turn_cells,
-                        const CellBox& cells) const;
   /// When the mast can have arrived anywhere in the box.
   std::pair<double, double> arrival_times_s(const JointBox& box) const;
   /// By how much the base has turned by then.
@@ -112,7 +104,6 @@ class GainBound {
   JointBox box_;
   int block_bins_;  ///< along pan and tilt, at most: the camera moves little within them
   std::vector<float> angle_part_;
-  std::vector<double> tangent_x_, tangent_y_;  ///< of each ray, x / z and y / z
   ConeGrid cones_grid_;
   ConeMarch march_;
   std::map<std::pair<int, int>, RayRanges> ranges_;  ///< by level and tilt
