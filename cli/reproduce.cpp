@@ -14,7 +14,7 @@
 #include "cli/reproduce_exchange.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
-#include "cli/terminal/progress.hpp"
+#include "cli/terminal/unit_progress.hpp"
 #include "core/atomic_file.hpp"
 #include "core/folder.hpp"
 #include "experiment/worker.hpp"
@@ -44,7 +44,7 @@ std::size_t count_missing(const std::vector<UnitResult>& results) {
 
 /// Those whose worlds are not there.
 std::vector<const ExperimentEnvironment*> tell_missing(const ExperimentOptions& experiment) {
-  const auto missing = missing_environments(experiment.environments, experiment.worlds_folder);
+  auto missing = missing_environments(experiment.environments, experiment.worlds_folder);
   for (const ExperimentEnvironment* environment : missing) {
     print_message(std::string(environment->name) + " is left out: there is no " +
                   (experiment.worlds_folder / environment->world_file).string());
@@ -69,17 +69,16 @@ void print_commands(std::vector<Unit> units, const ReproductionFolder& folder) {
 std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& options,
                       experiment::Pool& pool) {
   const ReproductionFolder& folder = options.experiment.folder;
-  Progress progress("reproduce", static_cast<double>(count_missing(read_results(units, folder))));
-  double ended = 0.0;
+  UnitProgress progress("reproduce", count_missing(read_results(units, folder)));
   const auto on_record = [&](const Json& record) {
     if (record.contains("failure")) {
-      progress.finish();
-      print_message("unit " + record.at("name").get<std::string>() +
-                    " failed: " + record.at("failure").get<std::string>());
+      progress.tell_failure(record.at("name").get<std::string>(),
+                            record.at("failure").get<std::string>());
     }
-    progress.update(++ended);
+    progress.end_unit();
   };
-  const experiment::RunResult result = run_reproduction(units, folder, pool, on_record);
+  const auto on_stop = [&](std::size_t at_work) { progress.tell_stop(at_work); };
+  const experiment::RunResult result = run_reproduction(units, folder, pool, on_record, on_stop);
   progress.finish();
   if (result.stopped_by) end_by(*result.stopped_by);
   return result.failed;

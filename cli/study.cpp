@@ -15,7 +15,7 @@
 #include "cli/study_exchange.hpp"
 #include "cli/terminal/end_by_signal.hpp"
 #include "cli/terminal/output.hpp"
-#include "cli/terminal/progress.hpp"
+#include "cli/terminal/unit_progress.hpp"
 #include "core/json.hpp"
 #include "experiment/worker.hpp"
 #include "experiment/workers.hpp"
@@ -110,19 +110,17 @@ void run(const StudyOptions& options, WorkKind kind) {
   std::vector<std::filesystem::path> maps;
   for (const study::StudyMap& map : study.maps) maps.push_back(map.file);
   workers.pool().require_files(maps);
-  Progress progress("study", static_cast<double>(to_run));
-  double ended = 0.0;
+  UnitProgress progress("study", to_run);
   const auto on_end = [&](const Json& record) {
     if (record.contains("failure")) {
-      progress.finish();
-      print_message("unit " + study::record_id(record) +
-                    " failed: " + record.at("failure").get<std::string>());
+      progress.tell_failure(study::record_id(record), record.at("failure").get<std::string>());
     }
-    progress.update(++ended);
+    progress.end_unit();
   };
+  const auto on_stop = [&](std::size_t units) { progress.tell_stop(units); };
   const experiment::RunResult result = study::run_study(
       study, folder, kind, {.retry_failed = options.retry_failed, .shard = options.shard},
-      workers.pool(), on_end);
+      workers.pool(), on_end, on_stop);
   progress.finish();
   if (result.stopped_by) end_by(*result.stopped_by);
   print_answer(to_text(result, std::min(workers.count(), std::max<std::size_t>(to_run, 1))));

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <deque>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -149,13 +150,15 @@ class UnitTimes {
 class Coordinator {
  public:
   Coordinator(Work& work, std::span<const std::size_t> to_do, double timeout_s, Pool& pool,
-              RecordFile& records, const std::function<void(const Json&)>& on_record)
+              RecordFile& records, const std::function<void(const Json&)>& on_record,
+              const std::function<void(std::size_t)>& on_stop)
       : work_(work),
         to_do_(to_do),
         timeout_s_(timeout_s),
         pool_(pool),
         records_(records),
         on_record_(on_record),
+        on_stop_(on_stop),
         queue_(work, to_do),
         workers_(std::min(pool.size(), to_do.size())) {}
 
@@ -164,6 +167,7 @@ class Coordinator {
  private:
   bool hands_out() const { return !result_.stopped_by && queue_.has_more(); }
   bool is_over() const;
+  std::size_t units_at_work() const;
   void employ(std::size_t index);
   std::size_t units_a_worker() const;
   void hand_out(std::size_t index);
@@ -181,6 +185,7 @@ class Coordinator {
   Pool& pool_;
   RecordFile& records_;
   const std::function<void(const Json&)>& on_record_;
+  const std::function<void(std::size_t)>& on_stop_;
   StopSignals signals_;
   Queue queue_;
   UnitTimes unit_times_;
@@ -200,6 +205,12 @@ RunResult Coordinator::run() {
 bool Coordinator::is_over() const {
   return !hands_out() &&
          std::ranges::none_of(workers_, [](const Worker& worker) { return worker.is_at_work(); });
+}
+
+std::size_t Coordinator::units_at_work() const {
+  return std::accumulate(
+      workers_.begin(), workers_.end(), std::size_t{0},
+      [](std::size_t units, const Worker& worker) { return units + worker.tasks.size(); });
 }
 
 /// Gives it something to do, if there is.
@@ -252,6 +263,7 @@ bool Coordinator::wait() {
   if (const auto signal = signals_.take()) {
     if (result_.stopped_by) return false;
     result_.stopped_by = signal;
+    if (on_stop_ && units_at_work() > 0) on_stop_(units_at_work());
   }
   for (const PoolEvent& event : events) take(event);
   for (std::size_t i = 0; i < workers_.size(); ++i) {
@@ -325,9 +337,10 @@ void Coordinator::end(const Task& task, const Outcome& outcome) {
 }  // namespace
 
 RunResult run_units(Work& work, std::span<const std::size_t> to_do, double timeout_s, Pool& pool,
-                    RecordFile& records, const std::function<void(const Json& record)>& on_record) {
+                    RecordFile& records, const std::function<void(const Json& record)>& on_record,
+                    const std::function<void(std::size_t units)>& on_stop) {
   if (to_do.empty()) return {};
-  return Coordinator(work, to_do, timeout_s, pool, records, on_record).run();
+  return Coordinator(work, to_do, timeout_s, pool, records, on_record, on_stop).run();
 }
 
 }  // namespace nbvopt::experiment

@@ -27,12 +27,13 @@ struct RunResult {
 /// before a unit that waits for it is handed out; then `on_record` is told of it. Where units are
 /// short, a worker gets several at a time, a tenth of a second's at most as far as those before
 /// tell. On SIGINT and SIGTERM no unit is handed out any more and those that were are waited for;
-/// on a second one they are dropped.
+/// on a second one they are dropped; `on_stop`, if there is one, is told how many are waited for.
 ///
 /// To be called by a process's only thread, or with both signals blocked in all others; the pool
 /// must be new. Throws InputError when a worker cannot be started or a record not be written, and
-/// what `on_record` throws.
+/// what `on_record` and `on_stop` throw.
 RunResult run_units(Work& work, std::span<const std::size_t> to_do, double timeout_s, Pool& pool,
-                    RecordFile& records, const std::function<void(const Json& record)>& on_record);
+                    RecordFile& records, const std::function<void(const Json& record)>& on_record,
+                    const std::function<void(std::size_t units)>& on_stop = {});
 
 }  // namespace nbvopt::experiment

@@ -103,12 +103,13 @@ void build_worlds(std::span<Unit> units, const ReproductionFolder& folder) {
 
 experiment::RunResult run_reproduction(std::span<const Unit> units,
                                        const ReproductionFolder& folder, experiment::Pool& pool,
-                                       const std::function<void(const Json& record)>& on_record) {
+                                       const std::function<void(const Json& record)>& on_record,
+                                       const std::function<void(std::size_t units)>& on_stop) {
   const FileLock lock = open_folder(folder);
   experiment::RecordFile records(folder.records());
   Work work(units);
   return experiment::run_units(work, open_units(units, folder), kUnitTimeout_s, pool, records,
-                               on_record);
+                               on_record, on_stop);
 }
 
 void list_units(std::span<const Unit> units, const ReproductionFolder& folder,

@@ -22,13 +22,14 @@ void read_worlds(std::span<Unit> units);
 /// files. Throws InputError when it cannot be written.
 void build_worlds(std::span<Unit> units, const ReproductionFolder& folder);
 
-/// Runs the units without a result, whose worlds must have been read, on workers of one
-/// thread each. Every record is in the folder's file before the next; then
-/// `on_record` is told of it. Throws InputError when the folder is used by another run or cannot be
-/// written, and as experiment::run_units().
+/// Runs the units without a result, whose worlds must have been read, on workers of one thread
+/// each. Every record is in the folder's file before the next; then `on_record` is told of it.
+/// Signals and `on_stop` are experiment::run_units()'s. Throws InputError when the folder is used
+/// by another run or cannot be written, and as experiment::run_units().
 experiment::RunResult run_reproduction(std::span<const Unit> units,
                                        const ReproductionFolder& folder, experiment::Pool& pool,
-                                       const std::function<void(const Json& record)>& on_record);
+                                       const std::function<void(const Json& record)>& on_record,
+                                       const std::function<void(std::size_t units)>& on_stop = {});
 
 /// For engines that bring workers of their own: visits the units without a result, whose worlds
 /// must have been built, as experiment::list_units(). Throws as run_reproduction().

@@ -133,12 +133,13 @@ WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kin
 
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
                                 const RunOptions& options, experiment::Pool& pool,
-                                const std::function<void(const Json& record)>& on_end) {
+                                const std::function<void(const Json& record)>& on_end,
+                                const std::function<void(std::size_t units)>& on_stop) {
   const FileLock lock = open_folder(study, folder);
   experiment::RecordFile records(record_path(folder, kind));
   Work work(study, folder, kind);
   const std::vector<std::size_t> to_do = open_units(work, record_path(folder, kind), options);
-  return experiment::run_units(work, to_do, work.timeout_s(), pool, records, on_end);
+  return experiment::run_units(work, to_do, work.timeout_s(), pool, records, on_end, on_stop);
 }
 
 void list_units(const Study& study, const StudyFolder& folder, WorkKind kind,

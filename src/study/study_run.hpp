@@ -33,14 +33,14 @@ struct RunOptions {
 WorkCount count_work(const Study& study, const StudyFolder& folder, WorkKind kind,
                      const Shard& shard = {});
 
-/// Writes the study into its folder and runs what of the
-/// shard has no record there yet; every record is in its
-/// file before the next. `on_end` is told of each unit that has ended, with its record. Throws
-/// InputError when the folder is used by another run or cannot be written, and as
-/// experiment::run_units().
+/// Writes the study into its folder and runs what of the shard has no record there yet; every
+/// record is in its file before the next. `on_end` is told of each unit that has ended, with its
+/// record; signals and `on_stop` are experiment::run_units()'s. Throws InputError when the folder
+/// is used by another run or cannot be written, and as experiment::run_units().
 experiment::RunResult run_study(const Study& study, const StudyFolder& folder, WorkKind kind,
                                 const RunOptions& options, experiment::Pool& pool,
-                                const std::function<void(const Json& record)>& on_end);
+                                const std::function<void(const Json& record)>& on_end,
+                                const std::function<void(std::size_t units)>& on_stop = {});
 
 /// For engines that bring workers of their own: writes the study into its folder and visits what of
 /// the shard has no record there yet, as experiment::list_units(). Throws as run_study().

@@ -126,8 +126,9 @@ class Coordination : public testing::Test {
  protected:
   RunResult run(MadePool& pool, const std::vector<std::size_t>& to_do, double timeout_s = 60.0) {
     RecordFile file(folder / "records.jsonl");
-    return run_units(work, to_do, timeout_s, pool, file,
-                     [this](const Json& record) { on_record(record); });
+    return run_units(
+        work, to_do, timeout_s, pool, file, [this](const Json& record) { on_record(record); },
+        [this](std::size_t units) { waited_for.push_back(units); });
   }
 
   /// The units that have a record, in its order, and why they failed.
@@ -143,6 +144,7 @@ class Coordination : public testing::Test {
   const test::TemporaryFolder folder;
   NumberedWork work;
   std::function<void(const Json&)> on_record = [](const Json&) {};
+  std::vector<std::size_t> waited_for;  ///< units, at each stop
 };
 
 TEST_F(Coordination, RunsWhatIsToDoInItsOrder) {
@@ -235,6 +237,7 @@ TEST_F(Coordination, AStopWaitsForWhatIsAtWork) {
   EXPECT_THAT(records(), Contains(std::pair<std::size_t, std::string>(
                              1, "stopped by the watchdog after 0.2 s")));
   EXPECT_THAT(pool.handed_out, Not(Contains("5")));
+  EXPECT_THAT(waited_for, ElementsAre(2)) << "one that hangs, and the one after that which ended";
 }
 
 TEST_F(Coordination, ASecondStopDropsWhatIsAtWork) {
