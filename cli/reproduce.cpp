@@ -69,14 +69,9 @@ void print_commands(std::vector<Unit> units, const ReproductionFolder& folder) {
 std::size_t run_units(const std::vector<Unit>& units, const ReproduceOptions& options,
                       experiment::Pool& pool) {
   const ReproductionFolder& folder = options.experiment.folder;
-  UnitProgress progress("reproduce", count_missing(read_results(units, folder)));
-  const auto on_record = [&](const Json& record) {
-    if (record.contains("failure")) {
-      progress.tell_failure(record.at("name").get<std::string>(),
-                            record.at("failure").get<std::string>());
-    }
-    progress.end_unit();
-  };
+  UnitProgress progress("reproduce", count_missing(read_results(units, folder)),
+                        [](const Json& record) { return record.at("name").get<std::string>(); });
+  const auto on_record = [&](const Json& record) { progress.end_unit(record); };
   const auto on_stop = [&](std::size_t at_work) { progress.tell_stop(at_work); };
   const experiment::RunResult result = run_reproduction(units, folder, pool, on_record, on_stop);
   progress.finish();

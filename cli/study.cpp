@@ -110,13 +110,8 @@ void run(const StudyOptions& options, WorkKind kind) {
   std::vector<std::filesystem::path> maps;
   for (const study::StudyMap& map : study.maps) maps.push_back(map.file);
   workers.pool().require_files(maps);
-  UnitProgress progress("study", to_run);
-  const auto on_end = [&](const Json& record) {
-    if (record.contains("failure")) {
-      progress.tell_failure(study::record_id(record), record.at("failure").get<std::string>());
-    }
-    progress.end_unit();
-  };
+  UnitProgress progress("study", to_run, study::record_id);
+  const auto on_end = [&](const Json& record) { progress.end_unit(record); };
   const auto on_stop = [&](std::size_t units) { progress.tell_stop(units); };
   const experiment::RunResult result = study::run_study(
       study, folder, kind, {.retry_failed = options.retry_failed, .shard = options.shard},

@@ -4,9 +4,13 @@
 
 namespace nbvopt {
 
-void UnitProgress::tell_failure(const std::string& unit, const std::string& failure) {
-  progress_.finish();
-  print_message("unit " + unit + " failed: " + failure);
+void UnitProgress::end_unit(const Json& record) {
+  if (record.contains("failure")) {
+    progress_.finish();
+    print_message("unit " + name_of_(record) +
+                  " failed: " + record.at("failure").get<std::string>());
+  }
+  progress_.update(++ended_);
 }
 
 void UnitProgress::tell_stop(std::size_t units) {

@@ -202,10 +202,7 @@ RunResult Coordinator::run() {
   return result_;
 }
 
-bool Coordinator::is_over() const {
-  return !hands_out() &&
-         std::ranges::none_of(workers_, [](const Worker& worker) { return worker.is_at_work(); });
-}
+bool Coordinator::is_over() const { return !hands_out() && units_at_work() == 0; }
 
 std::size_t Coordinator::units_at_work() const {
   return std::accumulate(

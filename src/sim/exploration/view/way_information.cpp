@@ -43,7 +43,7 @@ class WayWeigher {
   const CellArray<const PlaceGain*>& places_;
   const Promises& promises_;
   std::vector<Corner> corners_;
-  std::vector<double> most_;  ///< by cube, along the way to the last corner
+  std::vector<double> most_;  ///< by cube, along the way that was weighed last
   std::vector<Overwritten> overwritten_;
 };
 
@@ -69,12 +69,7 @@ double WayWeigher::information_along(const Path& way) {
     corners_.push_back(corner);
   }
   double information = corners_.back().information;
-  if (const PlaceGain* goal = place_at(points_map_m.back())) {
-    for (const CubeGain& gain : *goal) {
-      const double more = promises_.believed(gain) - most(gain.cube);
-      if (more > 0.0) information += more;
-    }
-  }
+  if (const PlaceGain* goal = place_at(points_map_m.back())) add(*goal, information);
   return information;
 }
 
